@@ -7,18 +7,27 @@ namespace extremal {
 namespace {
 
 /// "z₂": digits as subscripts.
-std::string indexed(const char* letter, int k) {
-    std::string text = letter;
-    for (const char digit : std::to_string(k))
-        text += std::string("₀₁₂₃₄₅₆₇₈₉").substr(static_cast<std::size_t>(3 * (digit - '0')), 3);
+std::string indexed(const std::string& name) {
+    std::string text;
+    for (const char c : name) {
+        if (c >= '0' && c <= '9')
+            text += std::string("₀₁₂₃₄₅₆₇₈₉").substr(static_cast<std::size_t>(3 * (c - '0')), 3);
+        else
+            text += c;
+    }
     return text;
+}
+
+std::string usualName(const UnknownBlock& b, int) {
+    return (b.isMultiplier ? "p" : "z") + std::to_string(b.index);
 }
 
 }  // namespace
 
-void nameBlocks(Figure& figure, const KktPattern& p) {
+void nameBlocks(Figure& figure, const KktPattern& p,
+                std::string (*nameOf)(const UnknownBlock&, int elements)) {
     for (const UnknownBlock& b : p.blocks) {
-        const std::string name = indexed(b.isMultiplier ? "p" : "z", b.index);
+        const std::string name = indexed((nameOf ? nameOf : usualName)(b, p.elements));
         const double middle = b.offset + (b.size - 1) / 2.0;
         figure.x.ticks.push_back({middle, name});
         figure.y.ticks.push_back({p.size - 1 - middle, name});

@@ -4,11 +4,15 @@
 /// numbers of an axis would count them backwards.
 #pragma once
 
+#include <string>
+
 #include "engine/figure/figure.hpp"
 #include "engine/run/kkt_pattern.hpp"
 
 namespace extremal {
 
-void nameBlocks(Figure& figure, const KktPattern& pattern);
+/// `nameOf`: the names that a family gives its blocks (family/step_equations.hpp); null: these.
+void nameBlocks(Figure& figure, const KktPattern& pattern,
+                std::string (*nameOf)(const UnknownBlock&, int elements) = nullptr);
 
 }  // namespace extremal

@@ -33,7 +33,8 @@ std::vector<std::string> stepFacts(const Table<double>& table, const Settings& s
         std::to_string(table.space.size) + " functions, " + std::to_string(table.nodes()) +
             (table.nodes() == 1 ? " node" : " nodes"),
         "K from " + shortNumber(K.minCoeff(), 3) + " to " + shortNumber(K.maxCoeff(), 3)};
-    if (space.find("functions")) facts.push_back("σ " + shortNumber(typedSpace(space).sigma, 2));
+    if (const Value* typed = space.find("functions"); typed && typed->isArray())
+        facts.push_back("σ " + shortNumber(typedSpace(space).sigma, 2));
     return facts;
 }
 

@@ -163,9 +163,11 @@ private:
         shown->scheme = std::make_shared<const ResolvedScheme>(spec_);
         shown->style = styleOf(spec_.spec, place_);
         shown->summary.status = RunStatus::done;
-        if (isMechanical(*system_) && unsuitableFor(*findView("sparsity"), spec_).empty())
+        if (const View matrix{"sparsity", "", ""};
+            missingFor(matrix, *system_).empty() && unsuitableFor(*findView(matrix.id), spec_).empty())
             shown->products.make<KktPattern>() =
-                kktPattern(*system_, *spec_.plain(), result_.from, spec_.spec.step.value);
+                kktPattern(*system_, withEstimates(*spec_.plain(), *system_, result_.from), result_.from,
+                           spec_.spec.step.value);
         comparison_.schemes = {shown};
         for (const char* id : {"basis", "sparsity"}) {
             View view;

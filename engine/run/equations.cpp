@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
+#include "engine/family/step_equations.hpp"
 #include "engine/scene/view_choices.hpp"
 
 namespace extremal {
 
 std::shared_ptr<ExactActions> exactActionsOf(const ResolvedScene& scene, const ProductPlan& plan) {
-    if (!isMechanical(*scene.system) || !plan.has(Product::actionDefect)) return nullptr;
+    if (!plan.has(Product::actionDefect) || !localCoordinates(*scene.system, scene.initial)) return nullptr;
     double largest = 0;
     for (const ResolvedScheme& s : scene.schemes)
         if (s.spec.isEnabled && s.plain()) largest = std::max(largest, 2 * s.spec.step.value);
@@ -19,7 +20,6 @@ void addEquations(SchemeResult& result, const ProductPlan& plan, const ResolvedS
                   const ResolvedScheme& scheme, const State& start, ExactActions* exact,
                   const std::stop_token& stop) {
     const System& system = *systemOf(scene, scheme);
-    if (!isMechanical(system)) return;
     const Discretization* const plain = scheme.plain();
     const auto failureOf = [&](const char* view) { return unsuitableFor(*findView(view), scheme); };
     if (plan.has(Product::kktPattern)) {
@@ -30,7 +30,12 @@ void addEquations(SchemeResult& result, const ProductPlan& plan, const ResolvedS
     if (plan.has(Product::actionDefect)) {
         ActionDefect& defect = result.products.make<ActionDefect>();
         defect.failure = failureOf("discrete-lagrangian");
-        if (defect.failure.empty() && exact) defect = actionDefect(system, *plain, start.t, *exact, stop);
+        if (!defect.failure.empty()) return;
+        const StepCase step{system, *plain, start, 2 * scheme.spec.step.value};
+        if (exact)
+            defect = actionDefect(system, *plain, start.t, *exact, stop);
+        else
+            defect = actionDefect(step, stop);
     }
 }
 

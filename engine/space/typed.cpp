@@ -402,7 +402,9 @@ std::vector<double> cellsOf(const Settings& space) {
 }
 
 bool dependsOnStep(const Settings& space) {
-    return space.find("functions") && formulasOf(space).dependOnStep();
+    // Other spaces have a key of this name too, whose values are words.
+    const Value* const typed = space.find("functions");
+    return typed && typed->isArray() && formulasOf(space).dependOnStep();
 }
 
 Settings withStep(const Settings& space, double step) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/family/step_equations.hpp"
 #include "engine/figure/build.hpp"
 
 namespace extremal::recipes {
@@ -14,6 +15,13 @@ std::string twoDecimals(double value) {
     std::string text = std::to_string(hundredths / 100) + ".";
     const long long rest = std::llabs(hundredths % 100);
     return text + (rest < 10 ? "0" : "") + std::to_string(rest);
+}
+
+/// The slope that the scheme promises: of fields on one mesh that of its order in time.
+int slopeClaimed(const SchemeResult& scheme) {
+    const Discretization* const plain = scheme.scheme ? scheme.scheme->plain() : nullptr;
+    const auto ofTime = plain ? equationsOf(*plain).orderInTime : nullptr;
+    return 1 + (ofTime ? ofTime(*plain) : scheme.summary.orderClaimed);
 }
 
 Figure makeDiscreteLagrangian(const FigureContext& context) {
@@ -40,7 +48,7 @@ Figure makeDiscreteLagrangian(const FigureContext& context) {
         s.y = d.defect;
         figure.add(std::move(s));
         slopes += (slopes.empty() ? "" : ", ") + (d.order > 0 ? twoDecimals(d.order) : std::string("?")) +
-                  " of " + std::to_string(scheme->summary.orderClaimed + 1);
+                  " of " + std::to_string(slopeClaimed(*scheme));
         known += d.order > 0 ? 1 : 0;
     }
     if (known > 0) figure.subtitle = "slope " + slopes;

@@ -2,7 +2,7 @@
 /// |L_d - L_d^exact| against the step, for every discretization: the order of the discrete action, of which
 /// all others follow.
 #include "engine/view/catalog.hpp"
-#include "engine/view/with_table.hpp"
+#include "engine/view/with_equations.hpp"
 
 namespace extremal::views {
 
@@ -14,8 +14,8 @@ ViewEntry discrete_lagrangian() {
             .recipe = OwnRecipe{"discrete_lagrangian"},
             .scales = logScales,
             .products = {Product::actionDefect},
-            .missing = coordinatesMissing,
-            .unsuitable = tableMissing};
+            .missing = actionMissing,
+            .unsuitable = [](const Discretization& d) { return equationsOf(d).actionLackingOf(d); }};
 }
 
 }  // namespace extremal::views

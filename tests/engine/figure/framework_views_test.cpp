@@ -75,10 +75,10 @@ private slots:
             "rk4: a baseline, which no discrete action defines; fast: made of functions that change with the "
             "step, not of one table; Y: a composition, whose step is several elements";
         const std::vector<View> views = plotViews(c.scene);
-        QCOMPARE(makeFigure(c, views.at(0)).message, "No KKT matrix: " + reasons);
+        QCOMPARE(makeFigure(c, views.at(0)).message, "No matrix of equations: " + reasons);
         QCOMPARE(makeFigure(c, views.at(1)).message, "No discrete Lagrangian: " + reasons);
         QCOMPARE(makeFigure(c, views.at(2)).message,
-                 std::string("No KKT matrix: Y: a composition, whose step is several elements"));
+                 std::string("No matrix of equations: Y: a composition, whose step is several elements"));
         for (const View& v : views) QVERIFY(isEmpty(makeFigure(c, v)));
     }
     void nothingIsComputedThatNoViewShows() {

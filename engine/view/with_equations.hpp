@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Views of the equations of a discretization: what systems and schemes have of them
+/// (family/step_equations.hpp).
+#pragma once
+
+#include <string>
+
+#include "engine/family/step_equations.hpp"
+#include "engine/view/view.hpp"
+
+namespace extremal {
+
+inline std::string matrixMissing(const View&, const System& system) {
+    return missingEquations(system, "equations of a step with a matrix", [](const StepEquations& e) {
+        return e.matrix.make ? nullptr : e.matrix.instead;
+    });
+}
+
+inline std::string actionMissing(const View&, const System& system) {
+    return missingEquations(system, "a discrete Lagrangian between two positions",
+                            [](const StepEquations& e) {
+                                return e.coordinates.make || e.actions.make ? nullptr : e.actions.instead;
+                            });
+}
+
+/// The key of the view `basis`: functions of time, or of space.
+inline bool isOfSpace(const View& view) { return view.keys.text("direction") == "space"; }
+
+inline std::string functionsMissing(const View& view, const System& system) {
+    if (isOfSpace(view))
+        return missingEquations(system, "functions of space", [](const StepEquations& e) {
+            return e.spaceFunctions.make ? nullptr : e.spaceFunctions.instead;
+        });
+    return missingEquations(system, "functions of time", [](const StepEquations& e) {
+        return e.functions.make ? nullptr : e.functions.instead;
+    });
+}
+
+}  // namespace extremal
