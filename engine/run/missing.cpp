@@ -78,6 +78,13 @@ bool isMissing(const ObservableEntry& entry, const SchemeResult& scheme) {
 
 }  // namespace
 
+void forgetMeasured(Summary& summary) {
+    for (double* const measured : {&summary.maxEnergyError, &summary.energyDrift, &summary.maxMomentumError,
+                                   &summary.maxNormError, &summary.maxError, &summary.finalError})
+        *measured = Summary::unknown;
+    for (Summary::Extreme& extreme : summary.extremes) extreme.value = Summary::unknown;
+}
+
 std::string textOfKnown(const std::string& column, long long known, long long nodes, double unknownFrom) {
     return column + " is known at " + std::to_string(known) + " of " + std::to_string(nodes) +
            " nodes, not at t = " + formatNumber(unknownFrom, 4) + ", and its largest value is that of those";
@@ -87,11 +94,13 @@ std::vector<Missing> missingFrom(const Comparison& comparison, const SchemeResul
     std::vector<Missing> all;
     const Summary& s = scheme.summary;
     const bool isComputed = s.status == RunStatus::done || s.status == RunStatus::failed;
-    if (!comparison.system || !isComputed || s.cause == Outcome::refused) return all;
+    if (!comparison.system || !isComputed) return all;
     for (const std::string& id : comparison.scene.observe) {
         const ObservableEntry* entry = findObservable(id);
         if (!entry || !appliesTo(*entry, *comparison.system)) continue;
-        if (entry->bind) {
+        if (s.steps == 0) {
+            all.push_back({id, "no step was taken, so that there is nothing to measure"});
+        } else if (entry->bind) {
             if (isMissing(*entry, scheme)) all.push_back({id, reasonFor(*entry, comparison, scheme)});
         } else if (s.status == RunStatus::done && !std::isfinite(s.orderMeasured)) {
             all.push_back({id, withoutOrder(comparison, scheme)});

@@ -354,6 +354,7 @@ struct Recording {
         if (hasCompanion) judgeBar(result, system, initialNode);
         nameUnknownNodes();
         s.energyDrift = energyLine.slope();
+        if (s.steps == 0) forgetMeasured(s);
     }
 
     /// Extremes over nodes some of which have no value say so: those that the observer knows at all, and not

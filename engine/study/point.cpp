@@ -97,7 +97,8 @@ public:
         warmUp(*integrator, state, grid_, stop_);
         MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop_, &judge);
         if (report.outcome == Outcome::converged && judge.hasShifted()) report.outcome = Outcome::lost;
-        result.error = measured.value;
+        // At the start alone there is nothing of the scheme to measure.
+        result.error = state.node > start_.node ? measured.value : PointResult::unknown;
         result.steps = state.node;
         result.cost = report.cost;
         result.step = step_;

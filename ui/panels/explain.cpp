@@ -2,11 +2,14 @@
 #include "ui/panels/explain.hpp"
 
 #include <QCoreApplication>
+#include <QTableWidget>
+#include <QToolTip>
 
 #include <cmath>
 
 #include "engine/view/catalog.hpp"
 #include "ui/panels/format.hpp"
+#include "ui/shell/plain_tips.hpp"
 
 namespace extremal {
 namespace {
@@ -85,6 +88,17 @@ QString explainValue(const Figure& figure, const QString& scheme, double t) {
     if (const ViewEntry* view = findView(figure.view))
         text += '\n' + say("Plot: %1.").arg(QString::fromStdString(view->item.description));
     return text + '\n' + say("Between the rows of the run it is read off a straight line.");
+}
+
+void explainCellsOf(QTableWidget& table) {
+    constexpr int readMs = 15000;
+    QObject::connect(&table, &QTableWidget::cellClicked, &table, [&table](int row, int column) {
+        const QTableWidgetItem* const item = table.item(row, column);
+        if (!item || item->toolTip().isEmpty()) return;
+        const QPoint below = table.visualItemRect(item).bottomLeft();
+        QToolTip::showText(table.viewport()->mapToGlobal(below), plainTip(item->toolTip()), &table, {},
+                           readMs);
+    });
 }
 
 }  // namespace extremal

@@ -8,6 +8,8 @@
 #include "engine/figure/figure.hpp"
 #include "engine/run/comparison.hpp"
 
+class QTableWidget;
+
 namespace extremal {
 
 QString explainCost(const Summary& summary);
@@ -18,5 +20,8 @@ QString explainOrder(const Summary& summary);
 QString explainSteps(const Summary& summary, bool areElements);
 /// A value of a plot at time t.
 QString explainValue(const Figure& figure, const QString& scheme, double t);
+
+/// A click on a cell shows its tip at once, and for long enough to be read.
+void explainCellsOf(QTableWidget& table);
 
 }  // namespace extremal

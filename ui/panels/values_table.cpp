@@ -2,23 +2,15 @@
 #include "ui/panels/values_table.hpp"
 
 #include <QHeaderView>
-#include <QToolTip>
 
 #include <algorithm>
 
 #include "engine/figure/sample.hpp"
 #include "ui/panels/explain.hpp"
 #include "ui/panels/format.hpp"
-#include "ui/shell/plain_tips.hpp"
 #include "ui/shell/theme.hpp"
 
 namespace extremal {
-namespace {
-
-constexpr int explainedMs = 15000;
-
-}  // namespace
-
 ValuesTable::ValuesTable(QWidget* parent) : QTableWidget(parent) {
     setAccessibleName(tr("Values at the cursor"));
     setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -28,11 +20,7 @@ ValuesTable::ValuesTable(QWidget* parent) : QTableWidget(parent) {
     verticalHeader()->setMinimumSectionSize(18);
     horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
     setShowGrid(false);
-    connect(this, &QTableWidget::cellClicked, this, [this](int row, int column) {
-        const QRect cell = visualItemRect(item(row, column));
-        QToolTip::showText(viewport()->mapToGlobal(cell.bottomLeft()), plainTip(item(row, column)->toolTip()),
-                           this, {}, explainedMs);
-    });
+    explainCellsOf(*this);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
 }
 

@@ -17,10 +17,12 @@
 #include "engine/core/text.hpp"
 #include "engine/figure/study_figure.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/panels/explain.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/theme.hpp"
 #include "ui/shell/workspace.hpp"
+#include "ui/study/explain_study.hpp"
 #include "ui/study/study_edits.hpp"
 #include "ui/study/study_form.hpp"
 #include "ui/study/wanted_error.hpp"
@@ -126,6 +128,7 @@ void StudyPage::makeResults(const Theme& theme) {
     table_->verticalHeader()->hide();
     table_->verticalHeader()->setDefaultSectionSize(22);
     table_->setMinimumHeight(100);
+    explainCellsOf(*table_);
     tableCard_->body()->addWidget(table_, 1);
     auto* splitter = new QSplitter(Qt::Vertical);
     splitter->setChildrenCollapsible(false);
@@ -297,6 +300,9 @@ void StudyPage::fill(const StudyTable& table) {
                 item->setData(Qt::UserRole, value.asNumber());
                 item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
             }
+            // Between two events the study may have gone on: the job's is the one that the table is of.
+            if (const Study* study = job_->study())
+                item->setToolTip(explainStudyCell(*study, table.columns[at], value));
             table_->setItem(row, c, item);
         }
     for (int c = 0; c < table_->columnCount(); ++c) {

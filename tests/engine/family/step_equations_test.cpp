@@ -12,11 +12,13 @@
 #include "engine/family/field/slab_actions.hpp"
 #include "engine/family/step_equations.hpp"
 #include "engine/figure/figure.hpp"
+#include "engine/group/so3.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/run/exact_actions.hpp"
 #include "engine/run/kkt_pattern.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
+#include "engine/scene/json.hpp"
 #include "engine/scene/preset.hpp"
 #include "tests/engine/family/field/fields.hpp"
 #include "tests/tools/test.hpp"
@@ -66,7 +68,7 @@ Eigen::MatrixXd hessianOf(const std::function<double(const Eigen::VectorXd&)>& S
 Eigen::Vector3d rateOf(const Eigen::Vector3d& xi, const Eigen::Vector3d& v) {
     Eigen::Vector3d term = v, sum = v;
     for (int k = 1; k < 30; ++k) {
-        term = -xi.cross(term) / (k + 1);
+        term = -so3::cross<double>(xi, term) / (k + 1);
         sum += term;
     }
     return sum;
@@ -218,7 +220,7 @@ private slots:
         for (const UnknownBlock& b : made.blocks)
             if (!b.isMultiplier && b.index == 1) second = &b;
         QVERIFY(second && second->size == 9);
-        const auto form = spatialForm(d, std::get<ScalarField>(field.kind).problem);
+        const auto form = spatialForm(d, field.part<ScalarField>().problem);
         const auto integrator = makeIntegrator(field, d, Clock{0, h});
         State after = start;
         QCOMPARE(advance(*integrator, after).outcome, Outcome::converged);
@@ -285,7 +287,7 @@ private slots:
         const ReadScene read = readScene(std::string_view(
             R"~({"extremal": 1, "model": {"type": "schrodinger", "potential": "cos(x)", "modes": 16,
                 "domain": [0, 6.283185307179586]},
-                "initial": {"x": 3, "width": 0.5}, "time": {"end": 1},
+                "initial": {"psi": {"packet": "gaussian", "centre": 3, "width": 0.5, "wave_number": 0}}, "time": {"end": 1},
                 "schemes": [{"label": "one", "scheme": "schrodinger-gauss-1", "step": 0.1},
                             {"label": "two", "scheme": "schrodinger-gauss-2", "step": 0.1}],
                 "views": ["sparsity"]})~"));

@@ -80,6 +80,29 @@ private slots:
         QVERIFY(!reason(c, 0, "discrete-energy").empty());
         QCOMPARE(reason(c, 0, "error"), std::string());
     }
+    /// The start alone says nothing of a scheme: of no quantity, in no file, and not in studies.
+    void aRunWithoutAStepHasMeasuredNothing() {
+        // The long step leaves the domain of the root at once, short ones do so later.
+        const Comparison c = resultsOf(scene(
+            R"~({"type":"lagrangian","coordinates":["x"],"lagrangian":"x_t^2/2+sqrt(1-x)"})~",
+            R"({"q":[0.5],"p":[3]})", "1",
+            R"([{"label":"none","scheme":"galerkin-gauss-2","step":0.5},{"label":"some","baseline":"rk4","step":0.01}])",
+            R"(,"observe":["energy","error","symplecticity","step"],"reference":{"type":"scheme","scheme":{"baseline":"rk4","step":0.001}})"));
+        const Summary& none = c.schemes[0]->summary;
+        QCOMPARE(none.steps, 0LL);
+        for (const double value : {none.maxEnergyError, none.energyDrift, none.maxError, none.finalError})
+            QVERIFY(std::isnan(value));
+        QVERIFY(!none.extremes.empty());
+        for (const Summary::Extreme& extreme : none.extremes) QVERIFY(std::isnan(extreme.value));
+        const Value row = summaryValue(c).find("schemes")->asArray()[0];
+        for (const char* key : {"max_error", "final_error", "max_energy_error", "energy_drift_per_unit_time"})
+            QVERIFY2(row.find(key)->isNull(), key);
+        for (const Value::Member& extreme : row.find("extremes")->asObject())
+            QVERIFY(extreme.second.isNull());
+        for (const char* id : {"energy", "error", "symplecticity", "step"})
+            QVERIFY2(reason(c, 0, id).find("no step was taken") != std::string::npos, id);
+        QVERIFY(c.schemes[1]->summary.steps > 0 && std::isfinite(c.schemes[1]->summary.maxEnergyError));
+    }
     void whatIsThereIsNotMissing() {
         const Comparison c = resultsOf(scene(kepler, orbit, "5", R"([{"scheme":"midpoint","step":0.05},
             {"baseline":"stormer-verlet","step":0.05},{"baseline":"dopri5","tolerance":1e-6}])",

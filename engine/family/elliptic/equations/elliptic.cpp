@@ -11,7 +11,7 @@ namespace extremal::equations {
 namespace {
 
 const EllipticProblem& ellipticOf(const System& system) {
-    return *std::get<BoundaryProblem>(system.kind).problem;
+    return *system.part<EllipticPart>().problem;
 }
 
 /// Of an element: 1 / int ds/a of functions with a constant flux, int a ds / h^2 of straight lines.

@@ -18,7 +18,7 @@ namespace extremal::equations {
 namespace {
 
 const std::shared_ptr<const FieldProblem>& fieldOf(const System& system) {
-    return std::get<ScalarField>(system.kind).problem;
+    return system.part<ScalarField>().problem;
 }
 
 Table<double> tableInTime(const Discretization& d) {
