@@ -76,6 +76,17 @@ std::optional<LocalCoordinates> localCoordinates(const System& system, const Sta
     return {};
 }
 
+LocalCoordinates ownCoordinates(const System& system, const State& start) {
+    const int d = system.dimension();
+    LocalCoordinates local;
+    local.mechanics = system.mechanics();
+    local.position = [d](const State& state) -> Eigen::VectorXd {
+        return Eigen::Map<const Eigen::VectorXd>(state.x.data(), d);
+    };
+    local.momentum = Eigen::Map<const Eigen::VectorXd>(start.x.data() + d, d);
+    return local;
+}
+
 std::string missingEquations(const System& system, const std::string& what,
                              const char* (*instead)(const StepEquations&)) {
     std::string others;

@@ -120,6 +120,9 @@ const StepEquations& equationsOf(const Discretization& discretization);
 /// The coordinates around a state of a system, from the family that has them; empty where there is none.
 std::optional<LocalCoordinates> localCoordinates(const System& system, const State& start);
 
+/// Those of a system with coordinates: its own, and the momenta of the state.
+LocalCoordinates ownCoordinates(const System& system, const State& start);
+
 /// What a system lacks for a part, for ViewEntry::missing: `what`, and what the schemes of its families are
 /// instead. Empty where one of them has the part. `instead`: of a family; null: it has the part.
 std::string missingEquations(const System& system, const std::string& what,

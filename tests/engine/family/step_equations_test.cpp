@@ -308,6 +308,98 @@ private slots:
         }
     }
 
+    /// Of the midpoint rule, S = (z_1 - z_0)^2 / (2 h) - h ((z_0 + z_1) / 2)^2 / 2 on the oscillator.
+    void theLengthOfAStepHasARowOfItsOwn() {
+        const ReadScene read = readScene(std::string(findPreset("oscillator-sem")->json));
+        const System& system = *read.resolved->system;
+        const Discretization d = *namedScheme("sem-1");
+        const State start = read.resolved->initial;
+        const double h = 0.1, mass = 1, k = 1;
+        const StepMatrix m = equationsOf(d).matrix.make({system, d, start, h});
+        QVERIFY2(m.failure.empty(), m.failure.c_str());
+        QCOMPARE(m.magnitude.rows(), Eigen::Index(1 + 2 + 1 + 1));
+        const double z0 = start.x[0], middle = (z0 + h / 2 * start.x[1] / mass) / (1 + h * h / 4 * k / mass),
+                     z1 = 2 * middle - z0;
+        QVERIFY(std::abs(m.magnitude(1, 4) - std::abs((z1 - z0) / (h * h) - (z0 + z1) / 4)) < 1e-10);
+        QVERIFY(std::abs(m.magnitude(2, 4) - std::abs((z1 - z0) / (h * h) + (z0 + z1) / 4)) < 1e-10);
+        QVERIFY(std::abs(m.magnitude(4, 4) - (z1 - z0) * (z1 - z0) / (h * h * h)) < 1e-10);
+        QVERIFY(m.magnitude(0, 4) == 0 && m.magnitude(3, 4) == 0);
+        // Of a given length its action is that of any Galerkin element.
+        ExactActions exact(system, start, 1);
+        const ActionDefect own = actionDefect(system, d, 0, exact, {}),
+                           midpoint = actionDefect(system, *namedScheme("midpoint"), 0, exact, {});
+        QVERIFY(own.defect == midpoint.defect && std::abs(own.order - 3) < 0.1);
+    }
+    /// d2 L_d / dz_0 dz_1 of nodes that move, by differences of the action of two elements.
+    void theMatrixOfMovingNodesIsThatOfTheirAction() {
+        const ReadScene read = readScene(std::string(findPreset("moving-mesh-cost")->json));
+        const ResolvedScheme* moving = nullptr;
+        for (const ResolvedScheme& s : read.resolved->schemes)
+            if (s.plain() && equationsOf(*s.plain()).family == "moving_mesh" && s.isFixed()) moving = &s;
+        QVERIFY(moving);
+        const System& system = *moving->ownSystem;
+        const State& start = moving->ownInitial;
+        const double h = moving->spec.step.value;
+        const StepMatrix m = equationsOf(*moving->plain()).matrix.make({system, *moving->plain(), start, h});
+        QVERIFY2(m.failure.empty(), m.failure.c_str());
+        const auto integrator = moving->make(system, h, start);
+        State after = start;
+        QCOMPARE(advance(*integrator, after).outcome, Outcome::converged);
+        const std::size_t n = start.x.size() / 4, e = n / 2;
+        const double c2 = system.fieldProblem().elastic.k;
+        // z of three nodes at both ends, (y, X) one after the other: what the middle one is in.
+        Eigen::VectorXd z(12);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t node = e - 1 + i;
+            const auto at = static_cast<Eigen::Index>(2 * i);
+            z(at) = start.x[node];
+            z(at + 1) = start.x[2 * n + node];
+            z(at + 6) = after.x[node];
+            z(at + 7) = after.x[2 * n + node];
+        }
+        const auto S = [&](const Eigen::VectorXd& x) {
+            const Rule<double> rule = gauss<double>(4);
+            double sum = 0;
+            for (int k = 0; k < 2; ++k) {
+                const auto middle = [&](int i) { return (x(2 * k + i) + x(2 * k + i + 6)) / 2; };
+                const auto rate = [&](int i) { return (x(2 * k + i + 6) - x(2 * k + i)) / h; };
+                const double size = middle(3) - middle(1), slope = (middle(2) - middle(0)) / size,
+                             r0 = rate(0) - slope * rate(1), r1 = rate(2) - slope * rate(3);
+                double W = 0;
+                for (int q = 0; q < 4; ++q) {
+                    const double u =
+                        middle(0) + rule.c[static_cast<std::size_t>(q)] * (middle(2) - middle(0));
+                    W += rule.b[static_cast<std::size_t>(q)] * (1 - std::cos(u));
+                }
+                sum += h * size * ((r0 * r0 + r0 * r1 + r1 * r1) / 6 - c2 * slope * slope / 2 - W);
+            }
+            return sum;
+        };
+        const Eigen::MatrixXd H = hessianOf(S, z);
+        const auto row = static_cast<Eigen::Index>(2 * e);
+        const Eigen::MatrixXd own = m.magnitude.block(row, row - 2, 2, 6),
+                              known = H.block(2, 6, 2, 6).cwiseAbs();
+        QVERIFY2((own - known).cwiseAbs().maxCoeff() < 1e-3 * known.maxCoeff(),
+                 qPrintable(QString::number((own - known).cwiseAbs().maxCoeff() / known.maxCoeff())));
+    }
+    /// Values meet their two neighbours; where knots are free, values and places meet both.
+    void theHessianOfAProfileKnowsWhatIsFree() {
+        const ReadScene read = readScene(std::string(findPreset("free-knots")->json),
+                                         {{"/views", Value::Array{Value("sparsity")}}});
+        QVERIFY(read.errors.empty());
+        const Comparison c = run(read.scene);
+        for (const auto& scheme : c.schemes) {
+            const KktPattern& p = *scheme->products.find<KktPattern>();
+            QVERIFY2(p.failure.empty(), p.failure.c_str());
+            const bool isFree = scheme->scheme->discretization.space.text("place") == "free";
+            const int each = isFree ? 2 : 1, knots = p.size / each;
+            QCOMPARE(p.size, each * (p.elements - 1));
+            QVERIFY(p.bandwidth <= 2 * each - 1);
+            QVERIFY(p.action.size() <= static_cast<std::size_t>(each * each * (3 * knots - 2)));
+            QVERIFY(p.action.size() >= static_cast<std::size_t>(each * (3 * knots - 2)) - 4);
+        }
+    }
+
     void functionsOfSpaceAndTime() {
         for (const auto& [preset, count] :
              {std::pair{"klein-gordon", std::size_t(2)}, std::pair{"coherent-state", std::size_t(4)},

@@ -57,6 +57,17 @@ private slots:
         QVERIFY(std::fabs(curve.y.back() - after.x[0]) < 1e-14);
         QVERIFY(std::fabs(curve.y.front() - scene_.initial.x[0]) < 1e-14);
     }
+    /// Of every kind of system, not of coordinates alone.
+    void theMatrixIsThereForBodiesFieldsAndWaves() {
+        for (const auto& [preset, title] :
+             {std::pair{"free-body", "KKT matrix of "}, std::pair{"klein-gordon", "KKT matrix of a slab of "},
+              std::pair{"coherent-state", "Matrix of a step of "}}) {
+            const ResolvedScene scene = *readScene(std::string(findPreset(preset)->json)).resolved;
+            const StepInspection step = inspectStep(scene, 0, scene.initial);
+            QVERIFY2(figureOf(step, title), preset);
+            QVERIFY2(figureOf(step, "Functions of "), preset);
+        }
+    }
     void theNodesAreThoseOfTheRule() {
         const StepInspection step = of("Galerkin 4");  // Gauss, two nodes
         const Figure* const motion = figureOf(step, "Step of");

@@ -42,7 +42,7 @@ StepMatrix stiffnessMatrix(const StepCase& c) {
     }
     m.blocks = {{0, n, false, 0}};
     m.elements = elements;
-    m.dimension = 1;
+    m.dimension = n;
     m.supports = {2, true, 2, 2, 0};
     return m;
 }
@@ -67,6 +67,9 @@ StepEquations elliptic() {
     e.matrix.make = stiffnessMatrix;
     e.matrixTitle = "Stiffness matrix";
     e.blockName = [](const UnknownBlock&, int) { return std::string("u"); };
+    e.extent = [](const System&, int elements, int shown) {
+        return std::to_string(shown) + " of " + std::to_string(elements - 1) + " nodes";
+    };
     e.functions.instead = e.actions.instead = still;
     e.spaceFunctions.make = ofMiddleNode;
     return e;

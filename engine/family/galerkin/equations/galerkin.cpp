@@ -16,17 +16,6 @@ Table<double> tableAt(const StepCase& c) {
     return tableOf(withStep(c.discretization.space, c.step), c.discretization.quadrature);
 }
 
-LocalCoordinates inCoordinates(const System& system, const State& start) {
-    const int d = system.dimension();
-    LocalCoordinates local;
-    local.mechanics = system.mechanics();
-    local.position = [d](const State& state) -> Eigen::VectorXd {
-        return Eigen::Map<const Eigen::VectorXd>(state.x.data(), d);
-    };
-    local.momentum = Eigen::Map<const Eigen::VectorXd>(start.x.data() + d, d);
-    return local;
-}
-
 }  // namespace
 
 StepEquations galerkin() {
@@ -35,7 +24,7 @@ StepEquations galerkin() {
     e.matrix = {[](const StepCase& c) { return saddleMatrix(c, tableAt(c)); }, "", withoutTable};
     e.functions = {tableAt, "", withoutTable};
     e.spaceFunctions.instead = "functions of time alone";
-    e.coordinates = {inCoordinates, "", withoutTable};
+    e.coordinates = {ownCoordinates, "", withoutTable};
     return e;
 }
 
