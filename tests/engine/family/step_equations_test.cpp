@@ -13,7 +13,7 @@
 #include "engine/family/step_equations.hpp"
 #include "engine/figure/figure.hpp"
 #include "engine/group/so3.hpp"
-#include "engine/model/wave/hamiltonian.hpp"
+#include "engine/model/static_problem.hpp"
 #include "engine/run/exact_actions.hpp"
 #include "engine/run/kkt_pattern.hpp"
 #include "engine/run/run.hpp"
@@ -48,8 +48,8 @@ System bodyOf(const char* model, Value::Object keys = {}) {
 State turning(double a, double b, double c) { return {0, 0, {1, 0, 0, 0, a, b, c, a, b, c}}; }
 
 /// d^2 S / dz_i dz_j by differences of values.
-Eigen::MatrixXd hessianOf(const std::function<double(const Eigen::VectorXd&)>& S, const Eigen::VectorXd& z) {
-    constexpr double e = 1e-3;
+Eigen::MatrixXd hessianOf(const std::function<double(const Eigen::VectorXd&)>& S, const Eigen::VectorXd& z,
+                          double e = 1e-3) {
     const auto n = z.size();
     Eigen::MatrixXd H(n, n);
     const auto at = [&](Eigen::Index i, double di, Eigen::Index j, double dj) {
@@ -397,6 +397,39 @@ private slots:
             QVERIFY(p.bandwidth <= 2 * each - 1);
             QVERIFY(p.action.size() <= static_cast<std::size_t>(each * each * (3 * knots - 2)));
             QVERIFY(p.action.size() >= static_cast<std::size_t>(each * (3 * knots - 2)) - 4);
+            const Trajectory& rows = scheme->trajectory;
+            const std::vector<double> x(rows[rows.columns[0].name].begin(), rows[rows.columns[0].name].end()),
+                u(rows["u"].begin(), rows["u"].end());
+            QCOMPARE(static_cast<int>(x.size()), knots + 2);
+            const System& system = *read.resolved->system;
+            const StaticProblem& problem = *std::get<BoundaryProblem>(system.kind).profile;
+            // The energy of all elements, of the values and places of the knots inside.
+            Eigen::VectorXd z(p.size);
+            for (int k = 0; k < knots; ++k) {
+                const auto at = static_cast<std::size_t>(k + 1);
+                z(each * k) = u[at];
+                if (isFree) z(2 * k + 1) = x[at];
+            }
+            const auto E = [&](const Eigen::VectorXd& w) {
+                double sum = 0;
+                const auto value = [&](int k, int i) {
+                    const auto at = static_cast<std::size_t>(k);
+                    if (k == 0 || k == knots + 1 || (i == 1 && !isFree)) return i == 0 ? u[at] : x[at];
+                    return w(each * (k - 1) + i);
+                };
+                for (int k = 0; k <= knots; ++k) {
+                    const double ends[] = {value(k, 0), value(k, 1), value(k + 1, 0), value(k + 1, 1)};
+                    sum += staticElement(problem, ends).energy;
+                }
+                return sum;
+            };
+            const StepMatrix m =
+                equationsOf(*scheme->scheme->plain())
+                    .matrix.make({*systemOf(*read.resolved, *scheme->scheme), *scheme->scheme->plain(),
+                                  initialOf(*read.resolved, *scheme->scheme), scheme->spec.step.value});
+            const Eigen::MatrixXd H = hessianOf(E, z, 1e-5).cwiseAbs();
+            QVERIFY2((m.magnitude - H).cwiseAbs().maxCoeff() < 1e-3 * H.maxCoeff(),
+                     qPrintable(QString::number((m.magnitude - H).cwiseAbs().maxCoeff() / H.maxCoeff())));
         }
     }
 
