@@ -208,14 +208,14 @@ private slots:
             return nullptr;
         };
         QCOMPARE(shown("sparsity"), 0);
-        QAction* matrix = entry("KKT matrix");
+        QAction* matrix = entry("Matrix of the equations");
         QVERIFY(matrix && matrix->isCheckable() && !matrix->isChecked());
         matrix->trigger();
         QVERIFY(waitForResults(window));
         QVERIFY(shown("sparsity") > 0);
         for (const PlotWidget* plot : window.compareView().plots()) QVERIFY(plot->figure().message.empty());
-        QVERIFY(entry("KKT matrix")->isChecked());
-        entry("KKT matrix")->trigger();
+        QVERIFY(entry("Matrix of the equations")->isChecked());
+        entry("Matrix of the equations")->trigger();
         QVERIFY(waitForResults(window));
         QCOMPARE(shown("sparsity"), 0);
     }
