@@ -67,8 +67,7 @@ struct Summary {
     double opensAt = unknown;  ///< t from which the error by a companion is too large to be true
     std::string advice;        ///< after a failure: what to try; for the window, not exported
     std::string about;         ///< how the scheme solves its equations, where that was a choice; not exported
-    std::string
-        caution;  ///< what is doubtful in a result that looks sound ("under-resolved: .."); not exported
+    std::string caution;       ///< what is doubtful in a result that looks sound ("under-resolved: ..")
 
     /// What grows along a march.
     void checkpoint(Archive& archive) {

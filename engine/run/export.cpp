@@ -81,6 +81,7 @@ Value summaryRow(const Summary& s) {
     row.set("final_error", knownNumber(s.finalError));
     row.set("order_claimed", knownNumber(s.orderClaimed > 0 ? s.orderClaimed : Summary::unknown));
     row.set("order_measured", knownNumber(s.orderMeasured));
+    row.set("error_bar_opens_at", knownNumber(s.opensAt));
     return row;
 }
 

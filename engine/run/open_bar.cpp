@@ -112,7 +112,10 @@ void judgeAgreement(SchemeResult& result, const System& system, const State& ini
     if (!measure.evaluate) return;
     Summary& summary = result.summary;
     // Of the scheme and of a companion with twice its steps.
-    const double floor = roundOffFloor(std::max(measure.scale, largestEntry(initial)), 3 * summary.steps);
+    const double size = std::max(measure.scale, largestEntry(initial));
+    double floor = roundOffFloor(size, 3 * summary.steps);
+    // Below its tolerance an error-controlled code promises nothing: its first steps err by much less.
+    if (result.spec.tolerance) floor = std::max(floor, *result.spec.tolerance * size);
     std::vector<double> x(width), other(width), values(measure.columns.size());
     const std::vector<double>& t = rows.columns.front().values;
     double largest = floor;
@@ -129,6 +132,7 @@ void judgeAgreement(SchemeResult& result, const System& system, const State& ini
                               "where it falls in the step, for the companion as well";
             return;
         }
+        if (!second) continue;
         second(t[r], other);
         measure.evaluate(x.data(), other.data(), values.data());
         const double own = error->values[r], its = factor * values[0];

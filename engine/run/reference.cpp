@@ -411,8 +411,10 @@ SecondCompanion secondCompanion(const ResolvedScene& resolved, const ResolvedSch
                                 const std::stop_token& stop) {
     const auto second = secondCompanionOf(scheme, companionOf(scheme, *systemOf(resolved, scheme)));
     if (!second) return {};
-    const double part = second->spec.step.value / scheme.spec.step.value;
-    const int order = scheme.claims.order;
+    // What is left of the scheme's error: of error-controlled codes the tolerance is a measure of it.
+    const int order = scheme.isAdaptive() ? 1 : scheme.claims.order;
+    const double part = scheme.isAdaptive() ? *second->spec.tolerance / *scheme.spec.tolerance
+                                            : second->spec.step.value / scheme.spec.step.value;
     return {runOf(*second, resolved, scheme, stop, nullptr), order > 0 ? 1 / (1 - std::pow(part, order)) : 1};
 }
 

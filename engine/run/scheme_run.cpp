@@ -146,9 +146,9 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
         judgeCompanion(result, reference, withoutBar);
         if (reference.make && !p.stopped) {
             publish(result);
-            if (const SecondCompanion second = secondCompanion(resolved_, scheme_, stop); second.make)
-                judgeAgreement(result, system, schemeStart(resolved_, scheme_, step), second.make(),
-                               second.factor, stop);
+            const SecondCompanion second = secondCompanion(resolved_, scheme_, stop);
+            judgeAgreement(result, system, schemeStart(resolved_, scheme_, step),
+                           second.make ? second.make() : ExactSolution(), second.factor, stop);
         }
     }
     if (wantsWayBack(scene_.observe) && !p.stopped && result.summary.status == RunStatus::done &&

@@ -11,6 +11,7 @@
 namespace extremal {
 namespace {
 
+constexpr double leastTolerance = 1e-14;  ///< of a companion: below it there is round-off alone
 constexpr const char* remedy = "use \"auto\" as the reference";
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -61,7 +62,7 @@ SchemeSpec ofBaseline(const ResolvedScheme& scheme, const System& system) {
     SchemeSpec spec = scheme.spec;
     const int order = scheme.claims.order;
     if (scheme.isAdaptive()) {
-        spec.tolerance = std::max(1e-14, spec.tolerance.value_or(1e-6) / 100);
+        spec.tolerance = std::max(leastTolerance, spec.tolerance.value_or(1e-6) / 100);
         if (!(*spec.tolerance < scheme.spec.tolerance)) refuse("its tolerance is at round-off");
         return spec;
     }
@@ -100,8 +101,15 @@ ResolvedScheme companionOf(const ResolvedScheme& scheme, const System& system) {
 }
 
 std::optional<ResolvedScheme> secondCompanionOf(const ResolvedScheme& scheme, const ResolvedScheme& first) {
-    if (!scheme.isFixed()) return {};
     ResolvedScheme second = scheme;
+    if (scheme.isAdaptive()) {
+        const double own = *scheme.spec.tolerance, its = *first.spec.tolerance;
+        second.spec.tolerance =
+            its > 2 * leastTolerance ? std::max(leastTolerance, its / 10) : std::sqrt(own * its);
+        second.spec.label = "second companion of " + scheme.spec.label;
+        return second;
+    }
+    if (!scheme.isFixed()) return {};
     const bool isHalved = first.spec.step.value < scheme.spec.step.value;
     second.spec.step.value /= isHalved ? 3 : 2;
     second.spec.label = "second companion of " + scheme.spec.label;

@@ -14,7 +14,9 @@
 /// On meshes the error in space remains: schemes of fields have no companion.
 ///
 /// The second companion checks the first: the scheme itself with half the step, or, where that is the first,
-/// with a third. The bar opens where the two disagree (run/open_bar.hpp).
+/// with a third; of an error-controlled code with a tenth of the tolerance of the first, or, where that is
+/// below round-off, with one between its own and that of the first. The bar opens where the two disagree
+/// (run/open_bar.hpp).
 #pragma once
 
 #include <optional>
@@ -27,7 +29,8 @@ namespace extremal {
 /// Its step is that of its own spec.
 ResolvedScheme companionOf(const ResolvedScheme& scheme, const System& system);
 
-/// Its step is half of that of the scheme, or a third; none where steps are not fixed.
+/// Its step is half of that of the scheme, or a third; of an error-controlled code its tolerance is another.
+/// Empty where time steps are unknowns.
 std::optional<ResolvedScheme> secondCompanionOf(const ResolvedScheme& scheme, const ResolvedScheme& first);
 
 /// By how many rad of the fastest motion at the start a step goes on, where that is too far for the companion

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/text.hpp"
+#include "engine/run/export.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/tools/estimate_ratio.hpp"
@@ -49,7 +51,9 @@ double bouncing(double t) {
 }  // namespace
 
 class CompanionTest : public QObject {
-    Q_OBJECT private slots : void theBarIsTheErrorOfAPlanetForLong() {
+    Q_OBJECT
+private slots:
+    void theBarIsTheErrorOfAPlanetForLong() {
         const std::string schemes = R"({"label": "2", "step": 0.05, "scheme": "galerkin-gauss-2"},
             {"label": "3", "step": 0.1, "scheme": "galerkin-gauss-3"},
             {"label": "4", "step": 0.05, "scheme": "galerkin-gauss-4"},
@@ -79,6 +83,8 @@ class CompanionTest : public QObject {
             readScene(sceneText(R"({"label": "a", "step": 0.2, "scheme": "galerkin-gauss-2"})", "companion"))
                 .scene);
         const SchemeResult& scheme = *result.schemes[0];
+        QCOMPARE(summaryValue(result).find("schemes")->asArray()[0].find("error_bar_opens_at")->asNumber(),
+                 scheme.summary.opensAt);
         QVERIFY(scheme.summary.opensAt > 1);
         QVERIFY(scheme.summary.opensAt < 100);
         QVERIFY(scheme.summary.caution.starts_with("the error bar is open from t ="));
@@ -227,6 +233,68 @@ class CompanionTest : public QObject {
                   largestSaid, largest);
             QVERIFY(largest < 1e-10 || (largestSaid > largest / 3 && largestSaid < 3 * largest));
         }
+    }
+    /// Seen failing: codes with error control had one companion alone. `fehlberg78` steps over the kink of
+    /// |x| in one step, whatever its tolerance, and was 19 away from the solution with a bar of 0.
+    void barsOfErrorControlOpenWhereTheForcesJump() {
+        for (const char* code : {"dopri5", "fehlberg78", "bulirsch-stoer", "stiff", "rk8pd"})
+            for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
+                const std::string scene =
+                    R"~({"extremal": 1, "model": {"type": "lagrangian", "coordinates": ["x"],
+                    "lagrangian": "x_t^2/2 - abs(x)"}, "initial": {"q": [1]}, "time": {"end": 40},
+                    "observe": ["error"], "reference": "companion", "schemes": [{"tolerance": )~" +
+                    formatNumber(tolerance) + ", \"baseline\": \"" + code + "\"}]}";
+                const ReadScene read = readScene(scene);
+                QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
+                const Comparison bar = run(read.scene);
+                const SchemeResult& result = *bar.schemes[0];
+                QVERIFY2(std::isfinite(result.summary.opensAt), code);
+                const auto& t = result.trajectory.columns.front().values;
+                const auto& x = result.trajectory["q.x"];
+                const auto& said = result.trajectory["error"];
+                double largest = 0, largestSaid = 0;
+                for (std::size_t r = 0; r < t.size() && t[r] < result.summary.opensAt; ++r) {
+                    largest = std::max(largest, std::abs(x[r] - bouncing(t[r])));
+                    largestSaid = std::max(largestSaid, said[r]);
+                }
+                qInfo("%s, %g: opens at %.3g, the bar said %.3g of %.3g", code, tolerance,
+                      result.summary.opensAt, largestSaid, largest);
+                QVERIFY(largest < tolerance || (largestSaid > largest / 3 && largestSaid < 3 * largest));
+            }
+    }
+    /// A pulse of the force, 0.05 long: the companion errs more at it than the code itself.
+    void barsOfErrorControlOpenWhereTwoCompanionsDisagree() {
+        const std::string scene =
+            R"~({"extremal": 1, "model": {"type": "lagrangian", "coordinates": ["x"],
+            "lagrangian": "x_t^2/2 - x^2/2 + x*exp(-((t-5)/0.05)^2)"}, "initial": {"q": [1]},
+            "time": {"end": 12}, "observe": ["error"], "schemes": [
+            {"tolerance": 1e-9, "baseline": "bulirsch-stoer"}, {"tolerance": 1e-9, "baseline": "dopri5"}],
+            "reference": )~";
+        const std::string trusted =
+            R"~({"type": "scheme", "scheme": {"baseline": "rk8pd", "tolerance": 1e-13}}})~";
+        const Comparison bar = run(readScene(scene + "\"companion\"}").scene),
+                         truth = run(readScene(scene + trusted).scene);
+        const auto ratio = [&](std::size_t k) {
+            return bar.schemes[k]->summary.maxError / truth.schemes[k]->summary.maxError;
+        };
+        qInfo("bar / truth: %.2f and %.2f", ratio(0), ratio(1));
+        QVERIFY(ratio(0) > 3);  // measured: 4.9
+        QVERIFY(bar.schemes[0]->summary.opensAt > 4.5 && bar.schemes[0]->summary.opensAt < 5.2);
+        QVERIFY(ratio(1) > 0.9 && ratio(1) < 1.1);
+        QVERIFY2(std::isnan(bar.schemes[1]->summary.opensAt), bar.schemes[1]->summary.caution.c_str());
+    }
+    /// The first errors of an error-controlled code are far below its tolerance, where it promises nothing.
+    void smoothMotionsKeepTheBarsOfErrorControl() {
+        for (const char* problem : {"kepler", "three bodies"})
+            for (const char* code : {"dopri5", "fehlberg78", "bulirsch-stoer", "stiff", "rk8pd"})
+                for (const char* tolerance : {"1e-5", "1e-8", "1e-10"}) {
+                    const QString scheme =
+                        QString(R"("tolerance": %1, "baseline": "%2")").arg(tolerance, code);
+                    const Comparison bar = run(splittingScene(problem, scheme, R"("companion")").scene);
+                    const Summary& s = bar.schemes[0]->summary;
+                    QVERIFY2(s.caution.find("disagree") == std::string::npos,
+                             (std::string(code) + ": " + s.caution).c_str());
+                }
     }
     void smoothMotionsKeepTheirBars() {
         for (const char* scheme :
