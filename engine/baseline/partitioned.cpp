@@ -30,7 +30,7 @@ public:
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Partitioned>(*this); }
     bool checkpoint(Archive& archive) override {
-        archive(force_, forceAt_);
+        archive(force_, forceAt_, forceTime_);
         return true;
     }
 
@@ -38,6 +38,7 @@ public:
         const auto& before = static_cast<const Partitioned&>(other);
         force_ = before.force_;
         forceAt_ = before.forceAt_;
+        forceTime_ = before.forceTime_;
     }
 
     /// Separable systems: the same maps on local copies, without a call per step.
@@ -167,9 +168,10 @@ private:
         if (isKick) {
             const auto& m = this->mechanics_;
             // The last kick of a step and the first of the next one use the same force.
-            if (m.isTimeDependent || forceAt_ != this->q1_) {
+            if (forceAt_ != this->q1_ || (m.isTimeDependent && forceTime_ != t)) {
                 m.force(m.model.get(), t, this->q1_.data(), force_.data());
                 forceAt_ = this->q1_;
+                forceTime_ = t;
                 ++this->report_.cost.evaluations;
             }
             this->p1_ += s * force_;
@@ -218,6 +220,7 @@ private:
     std::vector<PartitionedStage> stages_;
     Eigen::MatrixXd implicit_;
     Vector dq_, dp_, start_, change_, force_, forceAt_, inverseMass_;
+    double forceTime_ = 0;  ///< of force_, where forces depend on time
 };
 
 }  // namespace

@@ -15,6 +15,7 @@ struct Coefficients {
     Eigen::MatrixXd a, aHat;
     Eigen::VectorXd b, bHat, c;
     bool isExplicit;
+    bool isFirstSameAsLast;  ///< the last stage of a step is where the first one of the next begins
 
     explicit Coefficients(const Tableau& t)
         : a(t.A.cast<double>()),
@@ -22,7 +23,11 @@ struct Coefficients {
           b(t.b.cast<double>()),
           bHat(t.bHat.cast<double>()),
           c(t.c.cast<double>()),
-          isExplicit(t.isExplicit()) {}
+          isExplicit(t.isExplicit()) {
+        const Eigen::Index last = b.size() - 1;
+        isFirstSameAsLast = isExplicit && last > 0 && c(0) == 0 && c(last) == 1 &&
+                            a.row(last).transpose() == b && aHat.row(last).transpose() == bHat;
+    }
     Eigen::Index stages() const { return b.size(); }
 };
 
@@ -36,21 +41,30 @@ class TableMethod final : public FlowMethod<D> {
 public:
     TableMethod(const Mechanics<double>& mechanics, double step, const Coefficients& table)
         : Base(mechanics, step), table_(table) {
-        for (Vector* v : {&q_, &p_, &dq_, &dp_}) *v = Vector::Zero(this->d());
+        for (Vector* v : {&q_, &p_, &dq_, &dp_, &end_.dq, &end_.dp}) *v = Vector::Zero(this->d());
+        for (Vector* v : {&end_.q, &end_.p})
+            *v = Vector::Constant(this->d(), std::numeric_limits<double>::quiet_NaN());
         for (Stages* s : {&V_, &F_}) *s = Stages::Zero(this->d(), table_.stages());
     }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<TableMethod>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(end_.q, end_.p, end_.dq, end_.dp, end_.t);
+        return true;
+    }
 
 private:
     void step(double t) override {
         if (table_.isExplicit) {
             for (Eigen::Index i = 0; i < table_.stages(); ++i) {
                 stateAt(i, i);
-                if (!evaluate(t, i)) return;
+                if (i > 0 || !takeEnd(t)) {
+                    if (!evaluate(t, i)) return;
+                }
                 V_.col(i) = dq_;
                 F_.col(i) = dp_;
             }
+            if (table_.isFirstSameAsLast) noteEnd(t + this->h());
         } else if (!solve(t)) {
             return;
         }
@@ -63,6 +77,21 @@ private:
         q_ = this->q0_ + this->h() * V_.leftCols(known).lazyProduct(table_.a.row(i).head(known).transpose());
         p_ = this->p0_ +
              this->h() * F_.leftCols(known).lazyProduct(table_.aHat.row(i).head(known).transpose());
+    }
+    /// The slopes at (q_, p_), if that is exactly where the step before has ended.
+    bool takeEnd(double t) {
+        if (!table_.isFirstSameAsLast || end_.q != q_ || end_.p != p_) return false;
+        if (this->mechanics_.isTimeDependent && end_.t != t) return false;
+        dq_ = end_.dq;
+        dp_ = end_.dp;
+        return true;
+    }
+    void noteEnd(double t) {
+        end_.q = q_;
+        end_.p = p_;
+        end_.dq = dq_;
+        end_.dp = dp_;
+        end_.t = t;
     }
     bool evaluate(double t, Eigen::Index i) {
         this->flow(t + table_.c(i) * this->h(), q_, p_, dq_, dp_);
@@ -207,8 +236,15 @@ private:
         return true;
     }
 
+    /// The last stage of the last step.
+    struct End {
+        Vector q, p, dq, dp;
+        double t = 0;
+    };
+
     Coefficients table_;
     Vector q_, p_, dq_, dp_;
+    End end_;
     Stages V_, F_;
     Eigen::MatrixXd system_, slopes_;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu_;

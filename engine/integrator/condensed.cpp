@@ -15,13 +15,14 @@
 #include "engine/action/element_kernel.hpp"
 #include "engine/core/dimension.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/integrator/shared_force.hpp"
 
 namespace extremal {
 namespace {
 
 /// The step of a discretization as an Integrator.
 template <int D>
-class Condensed final : public Integrator {
+class Condensed final : public Integrator, public SharesForce {
 public:
     Condensed(const Mechanics<double>& mechanics, TablesOfStep tables, double step, SolverPolicy policy,
               std::vector<LagrangianTerm<double>> parts)
@@ -91,6 +92,9 @@ public:
     bool checkpoint(Archive& archive) override {
         archive(step_);
         return true;
+    }
+    void takeForce(const SharesForce& other) override {
+        step_.takeEnd(static_cast<const Condensed&>(other).step_);
     }
 
 private:

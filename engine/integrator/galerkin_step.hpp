@@ -109,6 +109,14 @@ public:
         withFixedPoint([](auto& solver) { solver.forget(); });
     }
 
+    /// What is known at the end of the last step of `other`, of the same system, for a step that begins
+    /// there.
+    void takeEnd(const GalerkinStep& other) {
+        if (auto* const own = std::get_if<NodeIteration<T>>(&fixedPointSolver_))
+            if (const auto* const its = std::get_if<NodeIteration<T>>(&other.fixedPointSolver_))
+                own->takeEnd(*its);
+    }
+
     /// What the next step depends on besides its start (Integrator::checkpoint).
     void checkpoint(Archive& archive) requires std::is_same_v<T, double> {
         archive(previousY_, hasPrevious_, carryQ_, carryP_, lastQ_, lastP_, ladder_, newtonSteps_);

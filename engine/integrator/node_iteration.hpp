@@ -20,6 +20,10 @@
 /// best, or, where these are missing, from a constant force; and goes on to round-off, so that symplecticity
 /// and momenta hold to round-off.
 ///
+/// Where no node sees itself, and the nodes that are seen see no others, the method is explicit, such as
+/// linear functions under the trapezoidal rule: each force is evaluated once, with the bits of the iteration.
+/// Where the step begins at exactly the place where the last node of the step before was, its force is known.
+///
 /// T: scalar. Arrays are d x stride, node fastest; beyond the nodes they repeat the last one.
 #pragma once
 
@@ -66,8 +70,12 @@ public:
     /// Forces at the nodes, n x d, of a step solved otherwise: the next one starts from them.
     void remember(const Eigen::Ref<const Square>& forces);
     void forget() { hasForces_ = false; }
+    /// The last node of another one's last step, of the same system, for a step that begins there.
+    void takeEnd(const NodeIteration& other) { end_ = other.end_; }
     /// What the next step starts from.
-    void checkpoint(Archive& archive) requires std::is_same_v<T, double> { archive(F_, hasForces_); }
+    void checkpoint(Archive& archive) requires std::is_same_v<T, double> {
+        archive(F_, hasForces_, end_.place, end_.force, end_.t, end_.isKnown);
+    }
 
     /// Steps of another length from now on; nothing is allocated.
     void setStep(const T& step);
@@ -77,9 +85,14 @@ private:
 
     void place(const T& t, const T* p, const T* carryQ, const T* carryP);
     void evaluateForces();
-    void evaluateOneByOne();
-    void weigh();  ///< impulses from forces
+    void evaluateOneByOne(int first, int last);  ///< nodes of [first, last)
+    void weigh();                                ///< impulses from forces
     void startFromConstantForce(const T& t, const T* q);
+    void findSources();
+    bool beginsAtEnd(const T& t, const T* q) const;
+    bool solveExplicitly(const T& t, const T* q, Sweep<T>& s, StepReport& report);
+    void notePlaces(int first, int last);  ///< where the forces of nodes of [first, last) are evaluated
+    bool isAtNotedPlaces() const;
     T largestChange(const T* q) const;
     CorrectionSize<T> measured(const T* q, const T* p) const;
     /// The sums that move q and p go through extended precision: rounded in double they were biased, and the
@@ -109,6 +122,17 @@ private:
     std::vector<SweepSize<T>> size_;
     void (*sweep_)(const Sweep<T>&) = nullptr;
     bool hasForces_ = false;
+    /// How many nodes see no other, the first ones, where all others see these alone; 0: it is not explicit.
+    /// Coefficients that are a unit or two of rounding, as N_ij - N_ji = s_i - s_j holds to the last bit, do
+    /// not count.
+    int sources_ = 0;
+    Array noted_;
+    /// The last node of an explicit step.
+    struct {
+        Array place, force;
+        T t = T(0);
+        bool isKnown = false;
+    } end_;
     T nearness_ = T(1);
 };
 

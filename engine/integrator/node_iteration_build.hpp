@@ -89,8 +89,9 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
     const auto unknowns = static_cast<std::size_t>(m_);
     for (Array* a : {&node_, &weight_, &toEnd_, &slope_, &times_}) a->assign(size, T(0));
     for (Array* a : {&N_, &start_}) a->assign(size * size, T(0));
-    for (Array* a : {&base_, &F_, &impulse_, &Z_, &Q_}) a->assign(size * d, T(0));
-    for (Array* a : {&inverseMass_, &v0_, &lost_, &place_, &force_}) a->assign(d, T(0));
+    for (Array* a : {&base_, &F_, &impulse_, &Z_, &Q_, &noted_}) a->assign(size * d, T(0));
+    for (Array* a : {&inverseMass_, &v0_, &lost_, &place_, &force_, &end_.place, &end_.force})
+        a->assign(d, T(0));
     toForces_.assign(size * unknowns, T(0));
     toVelocity_.assign(unknowns, T(0));
     size_.resize(d);
@@ -143,6 +144,23 @@ void NodeIteration<T>::setStep(const T& step) {
             start_[at(j, i)] = made_.start(node, j) * square;
             N_[at(j, i)] = node >= j ? N(node, j) : N(j, node) + (slope_[at(0, node)] - slope_[at(0, j)]);
         }
+    findSources();
+}
+
+template <class T>
+void NodeIteration<T>::findSources() {
+    using std::abs;
+    const T rounding = 4 * std::numeric_limits<T>::epsilon() * abs(velocityToEnd_);
+    const auto sees = [&](int i, int j) { return abs(N_[at(j, i)]) > rounding; };
+    sources_ = 0;
+    for (int i = 0; i < n_ && sources_ == i; ++i) {
+        bool seesNone = true;
+        for (int j = 0; j < n_; ++j) seesNone = seesNone && !sees(i, j);
+        sources_ += seesNone ? 1 : 0;
+    }
+    for (int i = sources_; i < n_; ++i)
+        for (int j = sources_; j < n_; ++j)
+            if (sees(i, j)) sources_ = 0;
 }
 
 /// Times of the nodes, and where they would be without a force.
@@ -164,7 +182,7 @@ void NodeIteration<T>::evaluateForces() {
     if (mechanics_.forces)
         mechanics_.forces(model, times_.data(), stride_, Q_.data(), F_.data());
     else
-        evaluateOneByOne();
+        evaluateOneByOne(0, n_);
 }
 
 template <class T>
@@ -174,8 +192,8 @@ void NodeIteration<T>::weigh() {
 }
 
 template <class T>
-void NodeIteration<T>::evaluateOneByOne() {
-    for (int i = 0; i < n_; ++i) {
+void NodeIteration<T>::evaluateOneByOne(int first, int last) {
+    for (int i = first; i < last; ++i) {
         for (int k = 0; k < d_; ++k) place_[static_cast<std::size_t>(k)] = Q_[at(k, i)];
         mechanics_.force(mechanics_.model.get(), times_[at(0, i)], place_.data(), force_.data());
         for (int k = 0; k < d_; ++k) F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
@@ -222,6 +240,7 @@ FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, con
         s.G = N_.data();
         s.weight = weight_.data();
     };
+    if (sources_ > 0 && solveExplicitly(t, q, s, report)) return FixedPointResult::solved;
     const bool isOnward = hasForces_;
     if (!hasForces_) {
         startFromConstantForce(t, q);
@@ -255,6 +274,72 @@ FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, con
         return FixedPointResult::solved;
     }
     return FixedPointResult::slow;
+}
+
+/// Whether the first node, the only one that sees no other, is where the last node of the step before was.
+template <class T>
+bool NodeIteration<T>::beginsAtEnd(const T& t, const T* q) const {
+    if (!end_.isKnown || sources_ != 1 || node_[at(0, 0)] != T(0)) return false;
+    if (mechanics_.isTimeDependent && end_.t != t) return false;
+    for (int k = 0; k < d_; ++k)
+        if (q[k] + base_[at(k, 0)] != end_.place[static_cast<std::size_t>(k)]) return false;
+    return true;
+}
+
+template <class T>
+void NodeIteration<T>::notePlaces(int first, int last) {
+    for (int k = 0; k < d_; ++k)
+        for (int i = first; i < last; ++i) noted_[at(k, i)] = Q_[at(k, i)];
+}
+
+template <class T>
+bool NodeIteration<T>::isAtNotedPlaces() const {
+    for (int k = 0; k < d_; ++k)
+        for (int i = 0; i < n_; ++i)
+            if (!(noted_[at(k, i)] == Q_[at(k, i)])) return false;
+    return true;
+}
+
+/// The fixed point without an iteration: the nodes that see no other, a sweep, and the others. False where
+/// rounding moves a node after all, or a force is not finite: the iteration says what becomes of that.
+template <class T>
+bool NodeIteration<T>::solveExplicitly(const T& t, const T* q, Sweep<T>& s, StepReport& report) {
+    const bool isOnward = hasForces_, isShared = beginsAtEnd(t, q);
+    const Sweep<T> expected = s;
+    if (!isOnward) std::fill(F_.begin(), F_.end(), T(0));
+    sweep_(s);  // where the others are expected, to tell how near that was
+    s.G = N_.data();
+    s.weight = weight_.data();
+    notePlaces(0, sources_);
+    if (isShared) {
+        for (int k = 0; k < d_; ++k) F_[at(k, 0)] = end_.force[static_cast<std::size_t>(k)];
+    } else {
+        mechanics_.forces ? evaluateForces() : evaluateOneByOne(0, sources_);
+        report.cost.evaluations += sources_;
+    }
+    // A force that is not seen may not be finite at a place where the node will not be.
+    for (int k = 0; k < d_; ++k)
+        for (int i = sources_; i < stride_; ++i) F_[at(k, i)] = T(0);
+    sweep_(s);
+    nearness_ = isOnward ? largestChange(q) : T(1);
+    notePlaces(sources_, n_);
+    if (sources_ < n_) {
+        mechanics_.forces ? evaluateForces() : evaluateOneByOne(sources_, n_);
+        report.cost.evaluations += n_ - sources_;
+    }
+    sweep_(s);
+    report.residual = static_cast<double>(largestChange(q));
+    hasForces_ = end_.isKnown = isAtNotedPlaces();
+    if (!hasForces_) {
+        s = expected;
+        return false;
+    }
+    end_.t = times_[at(0, n_ - 1)];
+    for (int k = 0; k < d_; ++k) {
+        end_.place[static_cast<std::size_t>(k)] = Q_[at(k, n_ - 1)];
+        end_.force[static_cast<std::size_t>(k)] = F_[at(k, n_ - 1)];
+    }
+    return true;
 }
 
 template <class T>
