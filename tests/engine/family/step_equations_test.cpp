@@ -402,7 +402,7 @@ private slots:
                 u(rows["u"].begin(), rows["u"].end());
             QCOMPARE(static_cast<int>(x.size()), knots + 2);
             const System& system = *read.resolved->system;
-            const StaticProblem& problem = *std::get<BoundaryProblem>(system.kind).profile;
+            const StaticProblem& problem = *system.part<StaticPart>().problem;
             // The energy of all elements, of the values and places of the knots inside.
             Eigen::VectorXd z(p.size);
             for (int k = 0; k < knots; ++k) {

@@ -26,7 +26,7 @@ Profile profileOf(const StepCase& c, double end) {
 }
 
 StepMatrix hessianOfEnergy(const StepCase& c) {
-    const StaticProblem& problem = *std::get<BoundaryProblem>(c.system.kind).profile;
+    const StaticProblem& problem = *c.system.part<StaticPart>().problem;
     const Profile p = profileOf(c, problem.right);
     const bool isFree = c.discretization.space.text("place") == "free";
     const int each = isFree ? 2 : 1, knots = static_cast<int>(p.x.size()),

@@ -40,7 +40,7 @@ std::vector<double> valuesAndPlaces(const std::vector<double>& x, std::size_t n)
 
 /// d2 L_d / dz_0 dz_1 of the first nodes, z = (y_i, X_i) one after the other.
 StepMatrix ofValuesAndPlaces(const StepCase& c) {
-    const NodeSpace space(std::get<ScalarField>(c.system.kind).problem);
+    const NodeSpace space(c.system.part<ScalarField>().problem);
     const auto integrator = makeIntegrator(c.system, c.discretization, Clock{c.start.t, c.step});
     State after = c.start;
     StepMatrix m;
@@ -79,7 +79,7 @@ StepEquations moving_mesh() {
     e.blockName = [](const UnknownBlock&, int) { return std::string("y, X"); };
     e.extent = [](const System& system, int, int nodes) {
         return std::to_string(nodes) + " of " +
-               std::to_string(std::get<ScalarField>(system.kind).problem->size()) + " nodes";
+               std::to_string(system.part<ScalarField>().problem->size()) + " nodes";
     };
     e.functions.make = [](const StepCase&) {
         return makeTable<double>(polynomialSpace<double>(1, PolynomialBasis::lobatto), gauss<double>(1));
