@@ -53,7 +53,7 @@ Value valueOf(const py::handle& object, const std::string& pointer, int depth = 
         for (const auto& [key, member] : object.cast<py::dict>()) {
             if (!py::isinstance<py::str>(key))
                 throw InvalidScene(pointer,
-                                   "has a key that is no text: " + py::repr(key).cast<std::string>());
+                                   "has a key that is not text: " + py::repr(key).cast<std::string>());
             const auto name = key.cast<std::string>();
             value.set(name, valueOf(member, pointer + "/" + name, depth + 1));
         }

@@ -49,7 +49,7 @@ struct PythonLagrangian : api::LagrangianCalls {
         if (!array) {
             PyErr_Clear();
             throw py::type_error("the Lagrangian of the system \"" + id + "\" gave a " + what +
-                                 " that is no array of numbers: " + py::repr(given).cast<std::string>());
+                                 " that is not an array of numbers: " + py::repr(given).cast<std::string>());
         }
         const std::vector<py::ssize_t> found(array.shape(), array.shape() + array.ndim());
         if (found != wanted)

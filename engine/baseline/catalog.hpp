@@ -36,7 +36,8 @@ struct BaselineEntry {
     double stabilityLimit =
         0;  ///< largest step * frequency on the harmonic oscillator; infinity: none; 0: not fixed-step
     /// The step as a Runge-Kutta method, of its formula where steps are chosen by an error control. Throws
-    /// InvalidScene (pointer relative to the scheme) where the keys make none. Empty: it is none.
+    /// InvalidScene (pointer relative to the scheme) where the keys make no such method. Empty: it is not
+    /// one.
     std::function<std::shared_ptr<const Tableau>(const Settings&)> tableau;
     /// The same limit where it depends on its keys; empty: stabilityLimit.
     std::function<double(const Settings&)> stabilityLimitOf;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t mostStages = 32;
 constexpr double exact = 1e-30, rounded = 1e-16;
-/// Defects below this were meant to be none.
+/// Defects below this were meant to be zero.
 constexpr double meant = 1e-5;
 
 /// The value of a key that is there; null else.

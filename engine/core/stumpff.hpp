@@ -7,8 +7,8 @@
 /// Derivative: c_k'(x) = (k c_{k+2}(x) - c_{k+1}(x)) / 2.
 ///
 /// The recurrence is used where it loses nothing, x > (k + 2)^2, and the series elsewhere, whose terms grow
-/// to e^{k+2} at most. T: double or a number of more digits. An order k that is no integer from 0 to 40, or
-/// an x that is not finite, gives not a number. Source: Stumpff, Himmelsmechanik I (1959), sec. 38.
+/// to e^{k+2} at most. T: double or a number of more digits. An order k that is not an integer from 0 to 40,
+/// or an x that is not finite, gives not a number. Source: Stumpff, Himmelsmechanik I (1959), sec. 38.
 #pragma once
 
 #include <cmath>

@@ -44,7 +44,7 @@ public:
     const Object& asObject() const { return std::get<Object>(data_); }
     Object& asObject() { return std::get<Object>(data_); }
 
-    /// The member of an object, or null if this is no object or has no such key.
+    /// The member of an object, or null if this is not an object or has no such key.
     const Value* find(std::string_view key) const {
         if (const auto* object = std::get_if<Object>(&data_))
             for (const Member& m : *object)

@@ -108,7 +108,7 @@ struct Family {
     /// The keys of the model on a mesh of `factor` times as many elements: orders are those of a refinement
     /// of the mesh and the step together, of all schemes for systems of the family. Null: of the step alone.
     Settings (*refined)(const Settings& model, int factor) = nullptr;
-    /// The largest step that is stable, for what the window adds; infinity: none is not. Null: that of the
+    /// The largest step that is stable, for what the window adds; infinity: every step is. Null: that of the
     /// harmonic oscillator at the highest frequency.
     double (*largestStep)(const System&, const Discretization&, const State& start) = nullptr;
     /// The state at the start, from the keys of /initial, of a space whose nodes are not those of the system;
@@ -170,8 +170,8 @@ struct Family {
     bool (*hasTable)(const Discretization&) = nullptr;
     /// The one table of a space and a rule, where no system and no step is in it. Null where there is none.
     Table<double> (*table)(const Settings& space, const Settings& quadrature) = nullptr;
-    /// The step as a Runge-Kutta method. Throws InvalidScene, with the reason, where it is none. Null: none
-    /// is.
+    /// The step as a Runge-Kutta method. Throws InvalidScene, with the reason, where it is not one. Null: no
+    /// step is.
     std::shared_ptr<const Tableau> (*tableau)(const Discretization&, double step) = nullptr;
     /// The discrete action and its stationarity.
     WrittenAction (*written)(const Discretization&) = nullptr;

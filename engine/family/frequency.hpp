@@ -15,8 +15,8 @@ namespace extremal {
 double highestFrequency(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness);
 
 /// All frequencies w > 0 of the linearisation L_vv q'' = L_qq q at a state, to round-off, ascending. Where
-/// it is no sum of oscillators (forces that depend on velocities, a mass matrix that is not positive), where
-/// the system has more than 200 coordinates or gives its highest frequency itself: that one alone.
+/// it is not a sum of oscillators (forces that depend on velocities, a mass matrix that is not positive),
+/// where the system has more than 200 coordinates or gives its highest frequency itself: that one alone.
 std::vector<double> linearFrequencies(const System& system, const State& state);
 
 }  // namespace extremal

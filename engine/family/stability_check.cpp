@@ -135,7 +135,7 @@ OscillatorStep tableStep(const Discretization& discretization) {
     if (const Family* const family = familyOf(space); family && family->tableau) try {
             return OscillatorStep(family->tableau(discretization, 1));
         } catch (const InvalidScene&) {
-            // The step is no Runge-Kutta method.
+            // The step is not a Runge-Kutta method.
         }
     return OscillatorStep(oscillatorAction(tableOf(space, quadrature)));
 }

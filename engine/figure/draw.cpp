@@ -41,7 +41,7 @@ struct Draw {
     const FigureContext& context;
 
     Figure operator()(const NoPlot&) const {
-        throw std::invalid_argument("\"" + context.entry.item.id + "\" is no plot");
+        throw std::invalid_argument("\"" + context.entry.item.id + "\" is not a plot");
     }
 
     Figure operator()(const ColumnAgainstTime& recipe) const {

@@ -24,7 +24,7 @@ struct Axis {
         {};  ///< named places in place of numbers, without a grid
 };
 
-/// The styles of curves that are no scheme's: a thin dashed neutral line, and a solid one.
+/// The styles of curves that belong to no scheme: a thin dashed neutral line, and a solid one.
 inline constexpr int formulaStyle = -1, exactStyle = -2;
 
 /// How the points of a series are drawn.
@@ -147,7 +147,7 @@ enum class Aspect {
 };
 enum class AxisStyle {
     scales,
-    none,  ///< the axes are no scales
+    none,  ///< the axes are not scales
 };
 
 /// One panel: axes, and layers. A view of several panels is several figures, which the window links by their

@@ -88,7 +88,7 @@ private:
                     break;
                 }
         }
-        // What is cut off beside a branch cut is no curve.
+        // What is cut off beside a branch cut is not a curve.
         if (x.size() - first < 3) {
             x.resize(first > 0 ? first - 1 : 0);
             y.resize(x.size());

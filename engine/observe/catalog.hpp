@@ -54,7 +54,7 @@ struct Observer {
     /// Whether it reads NodeBlock::quantities: they are measured only then.
     bool readsQuantities = false;
     /// Its values are those of the node so many nodes before the one that it is shown: it looks at nodes on
-    /// both sides. The last nodes of a run remain unknown, and what is no node.
+    /// both sides. The last nodes of a run remain unknown, and what is not a node.
     long long delay = 0;
     std::string about = {};  ///< what it chose for this run, for people
     /// What it remembers of the nodes it has seen, to be written or read; empty: nothing.

@@ -11,7 +11,7 @@ std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const Resol
                                          std::string& reason) {
     if (!isMechanical(*scene.system)) {
         reason =
-            "Runge-Kutta tableaus are for systems with coordinates, and " + scene.system->id + " is none.";
+            "Runge-Kutta tableaus are for systems with coordinates, and " + scene.system->id + " has none.";
         return nullptr;
     }
     const bool hasOne =
@@ -21,7 +21,7 @@ std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const Resol
                      ? "Steps of the family \"" + scheme.family->item.title +
                            "\" are no Runge-Kutta method with constant coefficients."
                      : scheme.baseline->item.title +
-                           " has no tableau here: it is no Runge-Kutta method, or the library that it "
+                           " has no tableau here: it is not a Runge-Kutta method, or the library that it "
                            "comes from keeps its coefficients to itself.";
         return nullptr;
     }

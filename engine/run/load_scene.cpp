@@ -10,7 +10,7 @@
 namespace extremal {
 namespace {
 
-/// Where the user names the reference, it is no stranger's.
+/// Where the user names the reference, it does not come from a stranger.
 bool setsReference(const std::vector<Override>& overrides) {
     return std::any_of(overrides.begin(), overrides.end(),
                        [](const Override& each) { return each.pointer.starts_with("/reference"); });

@@ -42,7 +42,7 @@ std::string withoutReference(const Comparison& comparison) {
 std::string withoutOrder(const Comparison& comparison, const SchemeResult& scheme) {
     const ReferenceInfo& reference = comparison.reference;
     if (reference.type == "companion")
-        return "differences from companions are no errors to measure it by; it takes a reference";
+        return "differences from companions are not errors to measure it by; it takes a reference";
     if (scheme.scheme && scheme.scheme->isAdaptive()) return "it is for schemes with a step";
     if (!std::isfinite(scheme.summary.maxError) &&
         std::find(comparison.scene.observe.begin(), comparison.scene.observe.end(), "error") !=

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// From when on the difference from a companion is no estimate of the error any more: it is above 0.05 of the
-/// size of the state, of systems with coordinates the rms of |q| over the rows; from the start where steps do
-/// not resolve the fastest motion (scene/companion.hpp), or many of the companion's steps failed. It opens as
-/// well where a second companion disagrees: at the first row where the two differences from the scheme are
-/// apart by more than half of the largest that either had so far, and by more than round-off explains, or the
-/// tolerance of an error-controlled code. Where steps are too long for the order that is claimed, each
-/// companion errs in its own way. And it opens at the first row behind a jump of the forces, such as that of
-/// |x| at 0: the error of a step over it depends on where in the step it falls, and two companions may agree
-/// by accident.
+/// From when on the difference from a companion is not an estimate of the error any more: it is above 0.05 of
+/// the size of the state, of systems with coordinates the rms of |q| over the rows; from the start where
+/// steps do not resolve the fastest motion (scene/companion.hpp), or many of the companion's steps failed. It
+/// opens as well where a second companion disagrees: at the first row where the two differences from the
+/// scheme are apart by more than half of the largest that either had so far, and by more than round-off
+/// explains, or the tolerance of an error-controlled code. Where steps are too long for the order that is
+/// claimed, each companion errs in its own way. And it opens at the first row behind a jump of the forces,
+/// such as that of |x| at 0: the error of a step over it depends on where in the step it falls, and two
+/// companions may agree by accident.
 #pragma once
 
 #include <stop_token>

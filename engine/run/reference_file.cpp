@@ -132,7 +132,7 @@ double numberIn(std::string_view cell, const ReferenceReader& reader) {
     if (cell.empty() || cell == "nan") return notKnown;
     const std::optional<double> value = parseNumber(cell);
     if (!value)
-        reader.failHere("\"" + std::string(cell.substr(0, 40)) + "\" is no number",
+        reader.failHere("\"" + std::string(cell.substr(0, 40)) + "\" is not a number",
                         cell.find(';') != cell.npos ? howItIsWritten : "a number, or an empty cell");
     return *value;
 }

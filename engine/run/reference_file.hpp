@@ -14,7 +14,7 @@
 namespace extremal {
 
 /// `name`: of the file, for messages. Throws InvalidScene (pointer /reference/path) that names the line for a
-/// row of another length, a cell that is no number, or a time that is there twice; or that says that t, or
+/// row of another length, a cell that is not a number, or a time that is there twice; or that says that t, or
 /// every column of the state, is missing, or that cells are separated by something other than commas.
 Reference readReference(std::istream& in, const std::string& name, const System& system);
 

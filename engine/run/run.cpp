@@ -180,7 +180,7 @@ bool Run::isPreparing() const { return impl_->isPreparing; }
 
 double Run::fraction() const {
     double sum = 0;
-    int computed = 0;  // what is known from before is no work of this run
+    int computed = 0;  // what is known from before does not count as work of this run
     for (const auto& task : impl_->tasks) {
         if (task->isKnown()) continue;
         const auto latest = task->latest();

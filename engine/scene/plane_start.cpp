@@ -119,12 +119,12 @@ std::string startProblem(const System& system, const ViewPlane& plane) {
     const std::vector<Quantity> columns = stateColumns(system);
     const auto x = indexOf(columns, plane.x), y = indexOf(columns, plane.y);
     for (const auto& [place, name] : {std::pair{x, plane.x}, std::pair{y, plane.y}})
-        if (!place) return "need state columns along both axes, and " + name + " is none";
+        if (!place) return "need state columns along both axes, and " + name + " is not one";
     if (*x == *y) return "need two different columns along the axes";
     if (plane.at.empty()) return {};
     const auto d = static_cast<std::size_t>(system.dimension());
     const auto at = indexOf(columns, plane.at);
-    if (!at || *at >= d) return "need a section of a coordinate, and " + plane.at + " is none";
+    if (!at || *at >= d) return "need a section of a coordinate, and " + plane.at + " is not one";
     for (const std::size_t column : {*x, *y})
         if (column == *at || column == *at + d)
             return "need other axes than " + plane.at +

@@ -316,7 +316,7 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
     // A step that follows from a parameter whose own error is reported is unknown without a further one.
     const bool hasStep = spec.step.value > 0 || spec.tolerance;
     if (!hasStep && reader.errors.empty())
-        reader.error(pointer + "/step", "follows from the model, where it is no positive number",
+        reader.error(pointer + "/step", "follows from the model, where it is not a positive number",
                      "parameters of the model of ordinary size");
     if (reader.errors.size() > errorsBefore || !hasStep) return {};
     return spec;

@@ -36,7 +36,7 @@ constexpr T roundOffOfSums() {
 }
 
 /// Size of a correction of one coordinate: against its increments in the step, or the round-off of its own
-/// value, whichever is larger. A hundredth of that round-off is no correction at all.
+/// value, whichever is larger. A hundredth of that round-off is not a correction at all.
 template <class T>
 T relativeCorrection(const T& change, const T& increments, const T& value) {
     using std::abs;

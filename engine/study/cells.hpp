@@ -22,7 +22,7 @@ inline double cellNumber(const std::string& text) {
     return parseNumber(text).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// The index of a point; no point has that of a text that is no number.
+/// The index of a point; no point has that of a text that is not a number.
 inline std::size_t cellIndex(const std::string& text) {
     return static_cast<std::size_t>(parseNumber(text).value_or(1e18));
 }

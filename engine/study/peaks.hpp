@@ -15,7 +15,7 @@ struct Peak {
 
 /// Of values that are positive or infinite; others are gaps, which nothing stands out from. A peak is at
 /// least `least` times as high as the lowest value on each side before one that is higher; an end of the
-/// curve is no peak.
+/// curve is not a peak.
 std::vector<Peak> findPeaks(std::span<const double> values, double least);
 
 }  // namespace extremal

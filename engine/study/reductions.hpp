@@ -18,7 +18,7 @@ struct Reduction {
 /// The present ones of a scheme whose space has one degree for all and whose rule has nodes; else none.
 Reduction richnessOf(const ResolvedScheme& scheme);
 
-/// The scheme with another degree and number of nodes; itself where the reduction is none. Throws
+/// The scheme with another degree and number of nodes; itself where nothing is reduced. Throws
 /// InvalidScene where there is no such scheme.
 ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const ResolvedScene& scene);
 

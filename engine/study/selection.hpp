@@ -19,7 +19,7 @@ struct Shard {
     bool operator==(const Shard&) const = default;
 };
 
-/// Throws InvalidScene (pointer "--shard") where it is none.
+/// Throws InvalidScene (pointer "--shard") where it is not a shard.
 void requireShard(const Shard& shard);
 
 /// The schemes of a scene by their labels, those that are enabled where there are none. Throws InvalidScene

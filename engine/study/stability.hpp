@@ -38,7 +38,7 @@ struct VariedNumber {
     std::vector<double> values() const;
     bool operator==(const VariedNumber&) const = default;
 };
-/// Throws InvalidScene (pointer `option`) where the text is no axis.
+/// Throws InvalidScene (pointer `option`) where the text is not an axis.
 VariedNumber parseAxis(const std::string& text, const std::string& option);
 /// The text that it is parsed from.
 std::string textOf(const VariedNumber& axis);

@@ -16,7 +16,7 @@ namespace extremal {
 StabilityStudy::StabilityStudy(ResolvedScene scene, StabilityOptions options)
     : scene_(std::move(scene)), options_(std::move(options)) {
     requireShard(options_.shard);
-    // A pointer that is no number of the scene is an error of the option, and not of every point.
+    // A pointer that is not a number of the scene is an error of the option, and not of every point.
     const auto requireNumber = [&](const VariedNumber& number, const char* option) {
         const ReadScene read = readScene(toValue(scene_.scene), {{number.pointer, number.from}});
         for (const Problem& p : read.errors)

@@ -4,7 +4,7 @@
 ///
 /// Columns: momentum.<name>, name as in MomentumMap of the system; of a cyclic coordinate its name; else
 /// translation.<direction>, rotation.<plane>, boost.<direction>, and linear, time or scaling for others. The
-/// energy is no momentum, and momenta that depend on others are left out.
+/// energy is not a momentum, and momenta that depend on others are left out.
 #pragma once
 
 #include <functional>
@@ -21,8 +21,8 @@ struct ConservedMomentum {
     std::string unit;
     /// At (t, x), x as in State.
     std::function<double(double t, const double* x)> value;
-    /// Its symmetry moves time: with fixed steps it is as little conserved as the energy, and it is no part
-    /// of momentum_error where there are others.
+    /// Its symmetry moves time: with fixed steps it is as little conserved as the energy, and it is not a
+    /// part of momentum_error where there are others.
     bool movesTime = false;
 };
 

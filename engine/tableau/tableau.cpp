@@ -142,7 +142,7 @@ Tableau galerkinTableau(const Table<Quad>& table) {
     if (!(ratio > 1e-12) || largest(speed - Vector::Ones(n)) > 1e-26)
         throw InvalidScene(
             "/quadrature",
-            "does not integrate the slopes of the space exactly, so that the step is no Runge-Kutta "
+            "does not integrate the slopes of the space exactly, so that the step is not a Runge-Kutta "
             "method",
             "a rule with more nodes");
     t.scope = n == m ? TableauScope::any : TableauScope::quadraticKinetic;

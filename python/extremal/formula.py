@@ -4,7 +4,7 @@
 A function L(t, q, v) is called once with symbols in place of numbers. What it returns is a formula, which the
 library differentiates and compiles: a run costs what it costs with a formula that was typed, and Python is not
 called again. This works for everything that is arithmetic and the functions of extremal (or those of numpy of
-the same names); a function that asks for the value of a symbol (if q.x > 0, float(q.x)) is no formula, and says
+the same names); a function that asks for the value of a symbol (if q.x > 0, float(q.x)) is not a formula, and says
 so: it can be added as a system that is evaluated in Python (extremal.add_system).
 """
 
@@ -37,7 +37,7 @@ class Symbol(Number):
 
     def _refuse(self, *_):
         raise TypeError(f"the formula asks for the value of {self.text}, which has none: a Lagrangian with branches "
-                        "or tables is no formula (extremal.sign and abs may be in one). extremal.add_system takes "
+                        "or tables is not a formula (extremal.sign and abs may be in one). extremal.add_system takes "
                         "it as it is, and is slower")
 
     __bool__ = __float__ = __int__ = __lt__ = __le__ = __gt__ = __ge__ = __index__ = _refuse

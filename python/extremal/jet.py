@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers that carry their first and second derivatives, for Lagrangians that are no formulas.
+"""Numbers that carry their first and second derivatives, for Lagrangians that are not formulas.
 
 With f, f', f'' at the value u,  grad f(u) = f' grad u,  hess f(u) = f' hess u + f'' grad u grad u^T. Comparisons
 are those of the values, so that a Lagrangian may have branches; at a branch its derivatives are those of the side

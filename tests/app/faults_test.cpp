@@ -46,7 +46,8 @@ QString faultOf(const QDir& folder, const QDir& whole) {
             continue;
         }
         const QByteArray there = contentOf(whole.filePath(name));
-        if (name == "summary.json" && QJsonDocument::fromJson(here).isNull()) return name + " is no document";
+        if (name == "summary.json" && QJsonDocument::fromJson(here).isNull())
+            return name + " is not a document";
         const bool hasTimes = name.startsWith("summary.");
         if (hasTimes ? here.count('\n') != there.count('\n') || !here.endsWith('\n') : here != there)
             return name + " is not whole";

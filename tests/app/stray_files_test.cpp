@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Files that are no files, folders that cannot be, signals, and lists of problems without an end.
+/// Files that are not files, folders that cannot be, signals, and lists of problems without an end.
 #include <QDir>
 #include <QFile>
 #include <QJsonArray>

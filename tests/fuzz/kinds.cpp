@@ -43,7 +43,7 @@ std::string faultOf(const std::vector<Problem>& problems, bool hasOverrides = fa
     for (const Problem& p : problems) {
         if (p.message.empty()) return "a finding at \"" + p.pointer + "\" without a message";
         if (!hasOverrides && !p.pointer.empty() && p.pointer.front() != '/')
-            return "\"" + p.pointer + "\" is no place of a scene";
+            return "\"" + p.pointer + "\" is not a place of a scene";
     }
     return {};
 }

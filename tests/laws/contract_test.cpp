@@ -57,7 +57,7 @@ std::vector<Run> everyRun() {
             const double step = c.scheme.grid == TimeGrid::free && c.scheme.baseline ? given / 4 : given;
             std::string name = system.id + " " + formatNumber(step) + ": " + c.name;
             Run run{std::move(name), system, std::move(c), start, step, scene.end.value};
-            // A step without a solution is no matter of the contract.
+            // A step without a solution is not a matter of the contract.
             if (takesSteps(run)) runs.push_back(std::move(run));
         }
     }

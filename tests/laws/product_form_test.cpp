@@ -123,7 +123,7 @@ private slots:
         QVERIFY(defect < 1e-6);
     }
     void angularMomentumIsLostWithoutGravity() {
-        // Constants are no variations of a product; of added amplitudes they are.
+        // Constants are not variations of a product; of added amplitudes they are.
         const System s = systemNamed("spring-pendulum", {{"k", 1e4}, {"g", 0.0}});
         const auto change = [&](const Discretization& discretization) {
             const auto integrator = makeIntegrator(s, discretization, {0, 0.1});

@@ -37,7 +37,7 @@ Quad traceByStages(const Tableau& t, const Quad& square) {
 }
 
 struct StepTrace {
-    Trace trace;          ///< empty where the step is no Runge-Kutta method
+    Trace trace;          ///< empty where the step is not a Runge-Kutta method
     bool isFast = false;  ///< a quotient of polynomials of low degree
 };
 

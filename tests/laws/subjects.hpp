@@ -40,7 +40,7 @@ double distanceOn(const Subject& on, const State& a, const State& b);
 Subject subjectOf(std::string name, const System& system, const State& start, double time = 0,
                   double longest = 0);
 
-/// What the state of a subject is; problems without motion are no subjects. A family of a new kind of system
+/// What the state of a subject is; problems without motion are not subjects. A family of a new kind of system
 /// is among the others: laws.claims_others measures it by what its systems say of themselves.
 enum class SubjectKind { coordinates, body, wave, other };
 SubjectKind kindOfSubject(const System& system);

@@ -45,7 +45,7 @@ WRONG = {"short gradient": (lambda z: (0.0, z(1), z((2, 2))), "a gradient of sha
          "small Hessian": (lambda z: (0.0, z(2), z((1, 1))), "a Hessian of shape \\(1, 1\\)"),
          "array for L": (lambda z: (z(2), z(2), z((2, 2))), "a value of shape \\(2,\\), and 1 coordinate needs \\(\\)"),
          "two of three": (lambda z: (0.0, z(2)), "must give \\(L, gradient, Hessian\\), got"),
-         "no numbers": (lambda z: (0.0, ["a", "b"], z((2, 2))), "a gradient that is no array of numbers")}
+         "no numbers": (lambda z: (0.0, ["a", "b"], z((2, 2))), "a gradient that is not an array of numbers")}
 
 
 def wrong_chain(t, q, v):

@@ -40,7 +40,7 @@ QStringList wordsOf(const QString& text) {
 /// Equal but for round-off: slopes to a hundredth, errors to a part in a hundred and to half the floor.
 bool isSame(const QString& a, const QString& b, bool isSlope) {
     if (a == b) return true;
-    const double x = a.toDouble(), y = b.toDouble();  // 0 where the cell is no number: "<"
+    const double x = a.toDouble(), y = b.toDouble();  // 0 where the cell is not a number: "<"
     return isSlope ? std::abs(x - y) < 0.011 : std::abs(x - y) <= 0.01 * std::max(x, y) + filonFloor / 2;
 }
 

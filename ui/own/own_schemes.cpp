@@ -39,7 +39,7 @@ OwnSchemes OwnSchemes::parse(std::string_view json) {
     if (document.isObject() && !document.find(mark) && saysWhatItIs(document)) {
         all.entries_ = {document};
     } else if (!document.find(mark) || !schemes || !schemes->isArray()) {
-        throw InvalidScene("", "is no catalogue of schemes",
+        throw InvalidScene("", "is not a catalogue of schemes",
                            std::string("{\"") + mark + "\": 1, \"schemes\": [..]}, or one scheme");
     } else {
         all.entries_ = schemes->asArray();

@@ -5,7 +5,7 @@
 /// scheme.
 ///
 /// What cannot be used is named with its place, and kept: entries that have faults are written back as they
-/// were, and a file that is no catalogue at all is never written over.
+/// were, and a file that is not a catalogue at all is never written over.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ namespace extremal {
 
 class OwnSchemes {
 public:
-    /// Throws InvalidScene, pointer into the file, where the text is no catalogue. One scheme alone is one as
-    /// well.
+    /// Throws InvalidScene, pointer into the file, where the text is not a catalogue. One scheme alone is one
+    /// as well.
     static OwnSchemes parse(std::string_view json);
     /// The catalogue in a file; empty where there is none. Throws InvalidScene, and names the file.
     static OwnSchemes load(const std::string& file);

@@ -2,8 +2,8 @@
 /// The discretizer: what each family of the model offers side by side (family/choices.hpp), usually function
 /// spaces as rows and quadratures as columns, and one's own functions and nodes last. A cell says which
 /// scheme the discretization is and its order; a click adds it to the comparison. Unsupported combinations
-/// are grey. A strip below the cells says what the one is that is pointed at, or why it is no scheme; cells
-/// in use have the colour of their scheme.
+/// are grey. A strip below the cells says what the one is that is pointed at, or why it is not a scheme;
+/// cells in use have the colour of their scheme.
 #pragma once
 
 #include <QAbstractButton>
@@ -39,7 +39,7 @@ public:
     enum class Use { none, off, on };
     void setUse(Use use, int style);
     Use use() const { return use_; }
-    /// What there is to say of it, as rich text: name, order, properties, or why it is no scheme.
+    /// What there is to say of it, as rich text: name, order, properties, or why it is not a scheme.
     const QString& about() const { return about_; }
     QSize sizeHint() const override { return {34, 23}; }
     QSize minimumSizeHint() const override { return {24, 23}; }

@@ -302,8 +302,8 @@ void SchemeCard::showResult(const SchemeResult* result, bool isStale, const Refe
         parts_->setText(schemeText(result->spec) + QStringLiteral(" · ") +
                         QString::fromStdString(summary.about));
     cost_.value->setText(summary.cpuSeconds > 0 ? shortTime(summary.cpuSeconds) : QStringLiteral("–"));
-    // What a run that was stopped has measured so far is no property of the scheme, and one that took no step
-    // has only the start.
+    // What a run that was stopped has measured so far is not a property of the scheme, and one that took no
+    // step has only the start.
     const bool isMeasured =
         (summary.status == RunStatus::done || summary.status == RunStatus::failed) && summary.steps > 0;
     error_.value->setText(isMeasured ? shortNumber(summary.maxError) : QStringLiteral("–"));

@@ -60,7 +60,7 @@ void CursorLayer::drawCursor(QCPPainter& painter, const PixelMap& map, double t,
         const auto value = pointAt(s, t);
         if (!value) continue;
         const QPointF p = map(value->first, value->second);
-        // A rectangle "contains" what is no number.
+        // A rectangle "contains" what is not a number.
         if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !map.rect.adjusted(-1, -1, 1, 1).contains(p))
             continue;
         painter.setPen(QPen(isPinned ? shared_.colorOf(s.style) : theme.panel, 1.2));

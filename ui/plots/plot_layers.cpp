@@ -178,8 +178,8 @@ double CurvesLayer::hiddenBy(const QRectF& box, const PixelMap& map) const {
     return hidden;
 }
 
-/// The names of curves that are no scheme's, in the corner where they hide least, first of all top right: the
-/// legend has the schemes alone.
+/// The names of curves that belong to no scheme, in the corner where they hide least, first of all top right:
+/// the legend has the schemes alone.
 void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
     constexpr double sample = 22, gap = 5, edge = 5;
     const QFont font = small(shared_.theme);

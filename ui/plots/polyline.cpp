@@ -381,7 +381,7 @@ VisibleLine visibleSamples(std::span<const double> x, std::span<const double> y,
     std::set<std::pair<int, int>> taken;  // places of half a pixel
     for (std::size_t i = 0; i < x.size(); ++i) {
         const QPointF p = map(x[i], y[i]);
-        // A rectangle "contains" what is no number.
+        // A rectangle "contains" what is not a number.
         if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !near.contains(p)) continue;
         const bool isInBand =
             std::any_of(visible.bands.begin(), visible.bands.end(), [&](const VisibleLine::Band& band) {

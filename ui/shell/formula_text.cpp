@@ -141,7 +141,7 @@ QString withFormulas(const QString& text) {
     while (from < text.size()) {
         const qsizetype open = text.indexOf('$', from), close = open < 0 ? -1 : text.indexOf('$', open + 1);
         if (close < 0) break;
-        // A dollar sign before a space, or one after a space, is none of a formula.
+        // A dollar sign before a space, or one after a space, does not belong to a formula.
         if (close == open + 1 || text[open + 1].isSpace() || text[close - 1].isSpace()) {
             out += text.mid(from, close - from);
             from = close;

@@ -9,7 +9,7 @@ static void initHandbook() { Q_INIT_RESOURCE(resources); }  // outside of any na
 namespace extremal {
 namespace {
 
-/// The level of a heading, 1 for "# Title"; 0: the line is none.
+/// The level of a heading, 1 for "# Title"; 0: the line is not a heading.
 int headingLevel(const QString& line) {
     int level = 0;
     while (level < line.size() && line[level] == '#') ++level;

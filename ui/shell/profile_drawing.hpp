@@ -17,7 +17,7 @@ namespace extremal {
 
 class ProfileDrawing {
 public:
-    /// None where the scene's model is no field over an interval.
+    /// None where the scene's model is not a field over an interval.
     static std::optional<ProfileDrawing> of(const Scene& scene);
 
     /// From and to points of the stage, in the model's coordinates.

@@ -58,7 +58,7 @@ struct Theme {
 
     /// Colour and dash of the scheme with this place in the scene (0, 1, ...). Eight colours, each with its
     /// own dash; from the ninth scheme on the colours return with other dashes.
-    SeriesStyle series(int style) const;  ///< of a scheme, or of a curve that is none's
+    SeriesStyle series(int style) const;  ///< of a scheme, or of a curve of no scheme
 
     /// Between a colour and the ground of plots: so many percent of the colour.
     QColor pale(const QColor& color, int percent) const;

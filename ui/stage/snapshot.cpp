@@ -116,7 +116,7 @@ SnapshotPage pageOf(std::shared_ptr<const Comparison> comparison, const Snapshot
     return page;
 }
 
-/// A page of messages is no picture, unless they tell of a failure.
+/// A page of messages is not a picture, unless they tell of a failure.
 void checkThatSomethingIsDrawn(const Comparison& comparison, const std::vector<View>& views) {
     for (const auto& scheme : comparison.schemes)
         if (scheme->summary.status != RunStatus::done) return;

@@ -12,7 +12,8 @@ QImage drawStage(const StageFrame& frame, const Camera& camera, QSizeF size, dou
     // Creating a context and its shaders takes a tenth of a second; a context belongs to one thread.
     thread_local std::unique_ptr<StagePainter> painter;
     if (!painter) painter = std::make_unique<StagePainter>();
-    // Up: where the ratio is no whole number, a row that is covered in part would keep what was there before.
+    // Up: where the ratio is not a whole number, a row that is covered in part would keep what was there
+    // before.
     const auto pixels = [&](double length) {
         return std::max(1, static_cast<int>(std::ceil(length * pixelRatio - 1e-6)));
     };

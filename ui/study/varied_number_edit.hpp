@@ -22,12 +22,12 @@ namespace extremal {
 class VariedNumberEdit : public QObject {
     Q_OBJECT
 public:
-    /// `axis`: "x" or "y"; a y can be none.
+    /// `axis`: "x" or "y"; a y may be left out.
     VariedNumberEdit(const QString& axis, QGridLayout& grid, int row, QObject* parent);
 
     /// Offers the numbers of the scene; keeps what is chosen where the scene has it.
     void offer(const Scene& scene);
-    /// None where no number is chosen. Throws InvalidScene where what is typed is no axis.
+    /// None where no number is chosen. Throws InvalidScene where what is typed is not an axis.
     std::optional<VariedNumber> value() const;
     void setVisible(bool isVisible);
 

@@ -22,7 +22,7 @@ public:
 
 signals:
     void changed(double value);
-    void refused(const QString& text);  ///< what was typed is no number above 0
+    void refused(const QString& text);  ///< what was typed is not a number above 0
 
 private:
     void readText();

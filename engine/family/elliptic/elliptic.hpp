@@ -9,8 +9,8 @@
 
 namespace extremal {
 
-/// Throws InvalidScene (pointer relative to the scheme) where the system is none, or the step no whole part
-/// of 1.
+/// Throws InvalidScene (pointer relative to the scheme) where the system is another one, or the step is not a
+/// whole part of 1.
 std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& discretization,
                                                    double step);
 

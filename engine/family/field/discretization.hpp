@@ -16,7 +16,7 @@ namespace extremal {
 struct TentDegrees {
     int space = 1, time = 1;
 };
-/// Of the space's key `degree`: one number for both directions, or one for each; 0 for what is no whole
+/// Of the space's key `degree`: one number for both directions, or one for each; 0 for what is not a whole
 /// number.
 TentDegrees tentDegrees(const Settings& space);
 

@@ -10,8 +10,8 @@
 ///     its spring stays as it is while the spring's mean changes by a factor: no such curve follows either.
 ///   - Where the amplitude or P vanishes, alpha, beta or w mean nothing: the Hessian of the action is
 ///   singular there.
-///   - Constants are no variations of such a curve: dP F is none. So Noether's theorem does not hold for the
-///   discrete action.
+///   - Constants are not variations of such a curve, and neither is dP F. So Noether's theorem does not hold
+///   for the discrete action.
 ///
 /// The curve depends on its unknowns X = (p, alpha, beta, w) nonlinearly. With the multiplier p_1 of each
 /// coordinate,

@@ -157,7 +157,7 @@ struct ResonanceKey {
 
 double stepConditioning(const System& system, const Discretization& discretization, double step) {
     if (!isOscillatory(discretization.space)) return 0;
-    // Coordinates that follow the fast ones are no oscillators; where none is known to be fast, all may be.
+    // Coordinates that follow the fast ones are not oscillators; where none is known to be fast, all may be.
     const std::vector<Table<double>> tables = oscillatoryTables(system, discretization, step);
     double worst = 0;
     for (const double z : oscillatoryPhases(system, discretization.space, step)) {

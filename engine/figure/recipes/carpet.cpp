@@ -135,7 +135,7 @@ Figure makeCarpet(const FigureContext& context) {
         if (isField(*context.system) || kindOf<Membrane>(*context.system)) figure.subtitle = "u" + most;
         if (!context.system->field.y.empty()) figure.subtitle = "√∫|ψ|² dy" + most;
     } else if (context.system && !context.system->field) {
-        figure.message = "The model is no field";
+        figure.message = "The model is not a field";
     }
     finishFigure(figure, context, "Field over time and space");
     return figure;

@@ -44,7 +44,7 @@ Figure makeLevels(const FigureContext& context) {
     figure.y.title = "E";
     const auto h = context.system && isWave(*context.system) ? context.system->hamiltonian() : nullptr;
     if (!h) {
-        if (context.system) figure.message = "The model is no wave function";
+        if (context.system) figure.message = "The model is not a wave function";
     } else if (const std::string problem = levelsProblem(*h); !problem.empty()) {
         figure.message = problem;
     } else {

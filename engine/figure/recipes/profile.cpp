@@ -153,7 +153,7 @@ Figure makeProfile(const FigureContext& context) {
         figure.subtitle = "at t = " + shortNumber(framesOf(*scheme)->back().t, 4);
         if (parts.size() > 1) figure.subtitle += ", Im ψ is pale";
     }
-    if (context.system && !context.system->field) figure.message = "The model is no field";
+    if (context.system && !context.system->field) figure.message = "The model is not a field";
     if (context.system && isField(*context.system) && !figure.series().empty()) {
         double t = 0;
         for (const auto& scheme : context.comparison.schemes)

@@ -84,7 +84,7 @@ Figure makeSpectrum(const FigureContext& context) {
             figure.x.range = {0, 2 * half + 1};
         }
     } else if (context.system) {
-        figure.message = "The model is no wave function";
+        figure.message = "The model is not a wave function";
     }
     finishFigure(figure, context, "Size of the coefficients at the end");
     return figure;

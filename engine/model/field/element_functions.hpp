@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Functions of the elements of a field that are no polynomials: for media a(x/epsilon) that elements are too
-/// large to resolve (Leok 2004, sec. 7).
+/// Functions of the elements of a field that are not polynomials: for media a(x/epsilon) that elements are
+/// too large to resolve (Leok 2004, sec. 7).
 ///
 /// An element has two functions, phi and 1 - phi, where phi goes from 0 to 1:
 ///

@@ -176,7 +176,7 @@ std::vector<std::string> keysOf(const Settings& initial) {
 void allowKeys(const Settings& initial, const std::vector<std::string>& known, const std::string& of) {
     for (const std::string& key : keysOf(initial))
         if (std::find(known.begin(), known.end(), key) == known.end())
-            throw InvalidScene("/" + key, "is no key of " + of, "it has " + joinNames(known));
+            throw InvalidScene("/" + key, "is not a key of " + of, "it has " + joinNames(known));
 }
 
 void checkSpeed(const Named& named, const std::vector<double>& values, const FieldProblem& problem) {

@@ -60,8 +60,8 @@ enum class Function : std::uint8_t {
     choose,
     table
 };
-/// As it is named in an Expression; "power" is pow(a, b) with an exponent that is no number; "if" is choose,
-/// which is b where a is not 0, else c; "table" is a derivative of the interpolant of its node.
+/// As it is named in an Expression; "power" is pow(a, b) with an exponent that is not a number; "if" is
+/// choose, which is b where a is not 0, else c; "table" is a derivative of the interpolant of its node.
 std::string_view name(Function function);
 std::optional<Function> functionNamed(std::string_view name);
 

@@ -110,7 +110,7 @@ std::function<double(double, double, double)> fieldOnRectangle(const Grid& grid,
         for (int a = -plane->reach; a <= plane->reach; ++a) {
             const double cosine = random.normal(), sine = random.normal();
             const double k = turn * a / grid.x.length, m = turn * b / grid.y.length;
-            // Of opposite wave numbers one counts, and the mean is no part of the field.
+            // Of opposite wave numbers one counts, and the mean is not a part of the field.
             const double weight = b > 0 || a > 0 ? std::exp(-(k * k + m * m) * l * l / 4) : 0;
             row.push_back(weight * Number(cosine, -sine));
             variance += weight * weight;

@@ -44,7 +44,7 @@ void useWisdom(const std::string& file) {
         throw std::runtime_error("\"" + file + "\" " + e.what());
     }
     if (fftw_import_wisdom_from_string(text.c_str()) == 0)
-        throw std::runtime_error("\"" + file + "\" is no wisdom of this FFTW");
+        throw std::runtime_error("\"" + file + "\" does not hold wisdom of this FFTW");
 }
 
 TransformGain measureTransform(const TransformSize& size) {

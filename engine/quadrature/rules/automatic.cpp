@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// "auto": the family of the space decides (`auto` is no name for a function).
+/// "auto": the family of the space decides (`auto` is not a name for a function).
 #include "engine/quadrature/catalog.hpp"
 
 namespace extremal::rules {

@@ -45,7 +45,8 @@ double energyError(Integrator& integrator, const System& system, State state, in
 class EnergyBaselinesTest : public QObject {
     Q_OBJECT
 private slots:
-    /// Two points are exact for a quartic, one is the midpoint rule. Kepler is no polynomial: 2n + 1 orders.
+    /// Two points are exact for a quartic, one is the midpoint rule. Kepler is not a polynomial: 2n + 1
+    /// orders.
     void theAverageVectorFieldKeepsAQuarticEnergy() {
         const System quartic = duffing(), kepler = systemNamed("kepler");
         const State start{0, 0, {1.5, 0}};

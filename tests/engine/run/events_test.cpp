@@ -85,7 +85,7 @@ private slots:
                                         {flyby[1], std::sqrt(0.75)}})
             QVERIFY2(std::abs(at - exact) < 1e-12, qPrintable(QString::number(at - exact)));
     }
-    /// A change of sign across a pole, a cut or a jump is no event, and stops nothing.
+    /// A change of sign across a pole, a cut or a jump is not an event, and stops nothing.
     void polesAndCutsAreNoEvents() {
         for (const char* scheme : {R"({"baseline": "dopri5", "tolerance": 1e-9, "label": "s"})",
                                    R"({"scheme": "galerkin-gauss-3", "step": 0.375, "label": "s"})"})

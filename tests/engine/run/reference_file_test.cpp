@@ -75,7 +75,7 @@ private slots:
                 std::string::npos);
         for (const char* row : {"0,0,1,5,0,25\n", "\"0,5\",1,0\n"})
             QVERIFY2(refusal(row).find(": a decimal comma, perhaps" + remedy) != std::string::npos, row);
-        QVERIFY(refusal("0,1;5,0\n").find("\"1;5\" is no number" + remedy) != std::string::npos);
+        QVERIFY(refusal("0,1;5,0\n").find("\"1;5\" is not a number" + remedy) != std::string::npos);
     }
     void wrongRowsAreNamed_data() {
         QTest::addColumn<QString>("rows");
@@ -85,7 +85,7 @@ private slots:
         QTest::newRow("empty time") << ",1,0\n"
                                     << "line 2: has no time";
         QTest::newRow("cell") << "0,1,0\n\n1,x,0\n"
-                              << "line 4: \"x\" is no number";
+                              << "line 4: \"x\" is not a number";
         QTest::newRow("short") << "0,1\n"
                                << "line 2: has 2 cells";
         QTest::newRow("twice") << "0,1,0\n1,1,0\n0,2,0\n"

@@ -79,7 +79,7 @@ private slots:
         QCOMPARE(second.schemes[1]->summary.maxError, anew.schemes[1]->summary.maxError);
         QCOMPARE(second.reference.description, anew.reference.description);
     }
-    /// What is known is no work of the run, and a scheme that has failed has none left.
+    /// What is known is not a work of the run, and a scheme that has failed has none left.
     void progressIsThatOfTheWorkOfTheRun() {
         Scene scene = preset();
         const Comparison first = run(scene);

@@ -53,8 +53,8 @@ private slots:
         QTest::newRow("momentum as well")
             << R"({"q":[0.4,0],"q1":[0.38,0.19],"p":[0,2]})" << one << "/initial: has both p and q1";
         QTest::newRow("time alone") << R"({"q":[0.4,0],"at":0.1})" << one << "/initial/at: requires q1";
-        QTest::newRow("a time that is no time") << R"({"q":[0.4,0],"q1":[0.38,0.19],"at":-1})" << one
-                                                << "/initial/at: must be a positive finite number, got -1";
+        QTest::newRow("a time that is not a time") << R"({"q":[0.4,0],"q1":[0.38,0.19],"at":-1})" << one
+                                                   << "/initial/at: must be a positive finite number, got -1";
         QTest::newRow("a position too short")
             << R"({"q":[0.4,0],"q1":[0.38]})" << one << "/initial/q1: must have 2 numbers";
         // Through the centre of attraction there is no motion.

@@ -134,7 +134,7 @@ private slots:
         QVERIFY(!fitOrder(rowsWith({2, 1.9, 2.1, 2, 1.95}), 0, 0).isKnown());   // a plateau has no order
         QVERIFY(!fitOrder(rowsWith({1, 1e-3, 2, 1e-2, 0.5}), 0, 0).isKnown());  // nor has scatter
         QVERIFY(!fitOrder(rowsWith({1.6e-3, 1e-4}), 0, 0).isKnown());           // nor have two points
-        // A failed point is no neighbour, and errors below the floor do not count.
+        // A failed point is not a neighbour, and errors below the floor do not count.
         const double unknown = PointResult::unknown;
         QCOMPARE(fitOrder(rowsWith({1, 1.0 / 4, unknown, 1e-4, 6.25e-6, 3.90625e-7}), 0, 0).from, 0.1);
         QVERIFY(!fitOrder(rowsWith({1, 1.0 / 4, unknown, 1e-4, 6.25e-6, 3.90625e-7}), 1e-6, 0).isKnown());

@@ -209,7 +209,7 @@ private slots:
         const PlotRange phaseBefore = phase->visibleRange(PlotAxis::x);
         wheel(*energy, middle(*energy), 4);
         QCOMPARE(error->visibleRange(PlotAxis::x), energy->visibleRange(PlotAxis::x));
-        QCOMPARE(phase->visibleRange(PlotAxis::x), phaseBefore);  // its x is no time
+        QCOMPARE(phase->visibleRange(PlotAxis::x), phaseBefore);  // its x is not a time
         group.fitAll();
         QVERIFY(!energy->isUserZoomed() && !error->isUserZoomed());
     }

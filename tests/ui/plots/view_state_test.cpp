@@ -51,7 +51,7 @@ private slots:
         QVERIFY(!view.isUserChosen());
         QVERIFY(!view.back());
     }
-    /// A gesture that changed nothing is no step back.
+    /// A gesture that changed nothing is not a step back.
     void backSkipsWhatDidNothing() {
         ViewState view;
         view.setFitted(PlotAxis::x, {0, 1});

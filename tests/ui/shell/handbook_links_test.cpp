@@ -67,7 +67,7 @@ private slots:
         const QString section = handbookSection("waves#in-space");
         QVERIFY(section.startsWith("## In space\n"));
         QVERIFY(section.contains("### Dirichlet boundaries") && !section.contains("## In time"));
-        // A comment of a program is no heading.
+        // A comment of a program is not a heading.
         QVERIFY(handbookSection("scenes#views").contains("view"));
         QVERIFY(handbookSection("library").size() > handbookSection("library#an-example").size());
     }

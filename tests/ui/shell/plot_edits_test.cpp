@@ -152,7 +152,7 @@ private slots:
         QVERIFY(waitForResults(window));
         QVERIFY(chooseIn(window, 1, "Against", "steps"));
         QTRY_COMPARE(energyView().keys.text("against"), std::string("steps"));
-        QVERIFY(!energyView().xRange);  // a part of time is no part of the steps
+        QVERIFY(!energyView().xRange);  // a part of time is not a part of the steps
         QVERIFY(!window.workspace().hasDrafts());
         QVERIFY(waitForResults(window));
         QTRY_VERIFY(plot(window, 1)->figure().x.isLog && !plot(window, 1)->figure().x.isTime);

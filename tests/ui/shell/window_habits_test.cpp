@@ -72,7 +72,7 @@ private slots:
         QVERIFY(row(window, 1).isEditing());
         press(Qt::Key_Return);
         QVERIFY(!row(window, 1).isEditing());
-        // What a window gives back when it becomes active is no choice.
+        // What a window gives back when it becomes active is not a choice.
         window.workspace().selectScheme(3);
         row(window, 1).clearFocus();
         row(window, 1).setFocus(Qt::ActiveWindowFocusReason);

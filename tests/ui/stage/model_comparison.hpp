@@ -97,7 +97,7 @@ inline Film pendulum() {
     return film;
 }
 
-/// Circles and ellipses that are no solutions, but look like them.
+/// Circles and ellipses that are not solutions, but look like them.
 inline Film kepler() {
     Film film;
     film.title = "Kepler problem";

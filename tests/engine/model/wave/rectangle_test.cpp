@@ -116,7 +116,7 @@ private slots:
                     return Hamiltonian(grid, 1, 1,
                                        wave::makePotential(Value("1/(y - 1)"), "/potential", grid, units));
                 }).contains("is not finite at x = -3, y = 1"));
-        // On an interval y is no name.
+        // On an interval y is not a name.
         const wave::Grid interval{{0, 1}, 8};
         QVERIFY(refusal([&] {
                     return wave::makePotential(Value("x*y"), "/potential", interval, units);
