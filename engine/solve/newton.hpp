@@ -3,9 +3,9 @@
 /// steps have their own, which allocates nothing (integrator/galerkin_step.hpp).
 ///
 /// A correction is halved until the residual shrinks, at most 30 times: 1e-9 of a correction that still does
-/// not help is not taken. When it ends is said by solve/newton_policy.hpp. `size` is that of the quantities the
-/// unknowns are parts of, where it is larger than theirs: round-off is relative to it. T: double or quadruple
-/// precision. Trouble is an Outcome: singular, notFinite, diverged.
+/// not help is not taken. When it ends is said by solve/newton_policy.hpp. `size` is that of the quantities
+/// the unknowns are parts of, where it is larger than theirs: round-off is relative to it. T: double or
+/// quadruple precision. Trouble is an Outcome: singular, notFinite, diverged.
 #pragma once
 
 #include <algorithm>
