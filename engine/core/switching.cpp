@@ -16,9 +16,13 @@ bool isIn(std::string_view name, std::initializer_list<std::string_view> names) 
 /// Writes parts of an expression.
 class Writer {
 public:
-    explicit Writer(const Expression& expression) : expression_(expression) {}
+    Writer(const Expression& expression, const Replacement& replacement)
+        : expression_(expression), replacement_(replacement) {}
 
     std::string write(int n) const {
+        if (replacement_)
+            if (const auto text = replacement_(n, [this](int part) { return write(part); }))
+                return "(" + *text + ")";
         const Expression::Node& node = expression_.nodes[static_cast<std::size_t>(n)];
         switch (node.kind) {
             case Operator::number:
@@ -68,15 +72,19 @@ private:
     }
 
     const Expression& expression_;
+    const Replacement& replacement_;
 };
 
 }  // namespace
 
-std::string writtenPart(const Expression& expression, int node) { return Writer(expression).write(node); }
+std::string writtenPart(const Expression& expression, int node, const Replacement& replacement) {
+    return Writer(expression, replacement).write(node);
+}
 
 std::vector<SwitchingFunction> switchingFunctions(const Expression& expression) {
     std::vector<SwitchingFunction> found;
-    const Writer writer(expression);
+    const Replacement asItIs;
+    const Writer writer(expression, asItIs);
     const auto add = [&](const std::string& text, bool mayJump) {
         const auto same = std::find_if(found.begin(), found.end(),
                                        [&](const SwitchingFunction& s) { return s.function.text == text; });

@@ -7,6 +7,8 @@
 /// nor are the points of splines, which have two continuous derivatives.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,11 @@ struct SwitchingFunction {
 /// In the order of the expression, each once.
 std::vector<SwitchingFunction> switchingFunctions(const Expression& expression);
 
+/// What is written in place of a node, if anything is; `write` writes its operands in the same way.
+using WritePart = std::function<std::string(int node)>;
+using Replacement = std::function<std::optional<std::string>(int node, const WritePart& write)>;
+
 /// A part of an expression as it could be typed, with the names that functions have inside ("log" for ln).
-std::string writtenPart(const Expression& expression, int node);
+std::string writtenPart(const Expression& expression, int node, const Replacement& replacement = {});
 
 }  // namespace extremal

@@ -15,6 +15,7 @@
 #include "engine/family/frequency.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/table_of.hpp"
+#include "engine/integrator/at_switches.hpp"
 #include "engine/quadrature/tensor.hpp"
 
 namespace extremal {
@@ -240,7 +241,11 @@ std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretiz
 ReferencePlan referenceBy(std::string description, const System& system, const Discretization& scheme) {
     ReferencePlan plan;
     plan.description = std::move(description);
-    plan.make = [system, scheme](double step) { return makeIntegrator(system, scheme, {0, step}); };
+    plan.make = [system, scheme](double step) {
+        return landingOnSwitches(system, [scheme, step](const System& smooth) {
+            return makeIntegrator(smooth, scheme, {0, step});
+        });
+    };
     return plan;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Looks for the events of a scene in every step, on its dense output (run/crossing.hpp).
+/// Looks for the events of a scene in every step, on its dense output (integrator/crossing.hpp).
 ///
 /// Events that a step has in common are in the order of their times; one that stops the run ends the motion
 /// there, and what comes later in the step has not happened.
@@ -11,7 +11,7 @@
 #include "engine/integrator/integrator.hpp"
 #include "engine/run/found_events.hpp"
 #include "engine/run/comparison.hpp"
-#include "engine/run/crossing.hpp"
+#include "engine/integrator/crossing.hpp"
 #include "engine/scene/event_names.hpp"
 
 namespace extremal {

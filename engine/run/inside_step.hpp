@@ -4,7 +4,7 @@
 /// steps have more points. In runs of more than 500 steps only those steps have points inside in which the
 /// motion is curved; runs of more than 4000 steps have none.
 ///
-/// A section is the set of states where one column passes zero upwards (run/crossing.hpp).
+/// A section is the set of states where one column passes zero upwards (integrator/crossing.hpp).
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 #include "engine/integrator/integrator.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/comparison.hpp"
-#include "engine/run/crossing.hpp"
+#include "engine/integrator/crossing.hpp"
 
 namespace extremal {
 

@@ -8,7 +8,7 @@
 #include "engine/core/contained.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/integrator/with_variations.hpp"
-#include "engine/run/crossing.hpp"
+#include "engine/integrator/crossing.hpp"
 #include "engine/run/inside_step.hpp"
 #include "engine/run/judge.hpp"
 #include "engine/run/march_grid.hpp"

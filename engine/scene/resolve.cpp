@@ -6,6 +6,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/integrator/at_switches.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/scheme_stability.hpp"
@@ -56,7 +57,10 @@ std::unique_ptr<Integrator> ResolvedScheme::make(const System& system, double st
         options.start = start;
         options.tolerance = spec.tolerance.value_or(0);
         options.settings = spec.baseline;
-        integrator = baseline->make(system, options);
+        const auto made = [&entry = *baseline, options](const System& smooth) {
+            return entry.make(smooth, options);
+        };
+        integrator = isAdaptive() ? landingOnSwitches(system, made) : made(system);
     }
     return isComposed() ? composed(parts, *integrator) : std::move(integrator);
 }

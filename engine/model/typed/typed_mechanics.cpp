@@ -14,6 +14,7 @@
 #include "engine/core/dimension.hpp"
 #include "engine/core/instruction_set.hpp"
 #include "engine/core/lanes.hpp"
+#include "engine/model/typed/branches.hpp"
 #include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape.hpp"
@@ -35,6 +36,7 @@ struct Model {
     };
     std::vector<Place> places;
     Landmarks landmarks;
+    std::shared_ptr<const Branches> branches;
 };
 
 const Model& self(const void* p) { return *static_cast<const Model*>(p); }
@@ -312,6 +314,7 @@ public:
         buildJet();
         buildLegendre();
         model_->landmarks = Landmarks(n_.graph, n_.value, 2 * d_ + 1);
+        model_->branches = Branches::of(formula_);
         TypedMechanics made;
         Mechanics<double>& m = made.mechanics;
         m.dimension = d_;
@@ -414,6 +417,10 @@ private:
 
 const Landmarks* landmarksOf(const Mechanics<double>& mechanics) {
     return mechanics.jet == jet ? &self(mechanics.model.get()).landmarks : nullptr;
+}
+
+std::shared_ptr<const Branches> branchesOf(const Mechanics<double>& mechanics) {
+    return mechanics.jet == jet ? self(mechanics.model.get()).branches : nullptr;
 }
 
 TypedMechanics makeMechanics(const Formula& formula) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/run/crossing.hpp"
+#include "engine/integrator/crossing.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 

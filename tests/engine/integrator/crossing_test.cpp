@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/run/crossing.hpp"
+#include "engine/integrator/crossing.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::crossing_test {
