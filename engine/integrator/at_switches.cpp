@@ -13,7 +13,7 @@
 namespace extremal {
 namespace {
 
-constexpr int mostSwitches = 1000, mostShortPieces = 50;
+constexpr int mostSwitches = 1000, mostShortPieces = 50, mostStuckSteps = 1000;
 constexpr double shortPiece = 1e-9;  ///< of a step
 constexpr std::size_t mostSides = 32;
 constexpr double roundOff = std::numeric_limits<double>::epsilon();
@@ -84,6 +84,7 @@ private:
     void forget() {
         pieces_.clear();
         isContinued_ = false;
+        stuckSteps_ = 0;
         sides_.clear();
         side_ = nullptr;
     }
@@ -118,7 +119,7 @@ private:
     std::vector<double> end_;  ///< state at the end of the last step
     std::vector<Piece> pieces_;
     std::vector<Kick> kicks_;  ///< at the start of the next piece
-    int shortPieces_ = 0;
+    int shortPieces_ = 0, stuckSteps_ = 0;
     StepSamples samples_;
     CrossingFinder finder_;
 };
@@ -146,7 +147,8 @@ double AtSwitches::cellAt(std::size_t k, double limit, const State& state, doubl
     if (!(std::abs(rate * time) > noise))
         rate = ahead * values_.laterRate(k, state.t, state.x.data(), time, side_->mechanics, cells_);
     const auto [low, high] = values_.branches().limits(k, cells_[k]);
-    if (!(std::abs(rate * time) > noise)) return cells_[k];
+    if (!(std::abs(rate * time) > noise))
+        return values_.branches().cellOf(k, argument(k, state.t, state.x.data()));
     if (low == high) return rate > 0 ? 1 : -1;
     if (limit == low) return rate > 0 ? cells_[k] : values_.branches().next(k, cells_[k], false);
     return rate < 0 ? cells_[k] : values_.branches().next(k, cells_[k], true);
@@ -163,6 +165,7 @@ void AtSwitches::settle(const State& state, double time) {
     for (std::size_t k = 0; k < branches.size(); ++k) {
         noise_[k] = values_.noise(k, state.t, state.x.data(), side_->mechanics, cells_);
         const double s = argument(k, state.t, state.x.data());
+        if (!branches.moves(k)) continue;
         const auto [low, high] = branches.limits(k, cells_[k]);
         for (const double limit : {low, high}) {
             if (!(std::abs(s - limit) <= noise_[k])) continue;
@@ -204,14 +207,20 @@ StepReport AtSwitches::advance(State& state, double until) {
         endTime_ = state.t;
         end_ = state.x;
         isContinued_ = true;
+        const bool leadsOn = std::abs(state.t - before.t) >= shortPiece * std::abs(until - before.t);
+        stuckSteps_ = leadsOn ? 0 : stuckSteps_ + 1;
         report.step = state.t - before.t;
         state.node = before.node + 1;
-        return report;
+    } else {
+        const Cost spent = report.cost;
+        state = before;
+        report = plainStep(state, until);
+        report.cost += spent;
+        ++stuckSteps_;
     }
-    const Cost spent = report.cost;
-    state = before;
-    report = plainStep(state, until);
-    report.cost += spent;
+    // An error control that finds no step across a limit could go on in steps that lead nowhere.
+    if (!isFixed() && stuckSteps_ > mostStuckSteps) report.outcome = Outcome::stepBudget;
+    if (report.outcome != Outcome::converged) state = before;
     return report;
 }
 
@@ -221,7 +230,8 @@ StepReport AtSwitches::plainStep(State& state, double until) {
     plain_->setStop(stop());
     const double from = state.t;
     const StepReport report = plain_->advance(state, until);
-    if (report.outcome == Outcome::converged) pieces_.push_back({from, state.t, plain_.get()});
+    if (report.outcome != Outcome::converged) return report;
+    pieces_.push_back({from, state.t, plain_.get()});
     return report;
 }
 
@@ -306,6 +316,7 @@ std::vector<Limit> AtSwitches::limitsPassed(const State& before, const State& af
     samples_.begin(*side_->integrator, before.x.size());
     std::vector<Limit> first;
     for (std::size_t k = 0; k < branches.size(); ++k) {
+        if (!branches.moves(k)) continue;
         const auto [low, high] = branches.limits(k, cells_[k]);
         const double start = argument(k, before.t, before.x.data()),
                      end = argument(k, after.t, after.x.data());
@@ -321,14 +332,18 @@ std::vector<Limit> AtSwitches::limitsPassed(const State& before, const State& af
                 return sign *
                        (argument(k, t, branches.isOfTime(k) ? before.x.data() : samples_.at(tau)) - place);
             };
+            const double noise = noise_[k];
+            const bool isAtRest = std::abs(start - place) <= noise && std::abs(end - place) <= noise &&
+                                  std::abs(distance(0.5)) <= noise;
+            if (isAtRest) continue;
             // At the start it is inside, or on the limit to round-off.
-            const double least = std::max(noise_[k], std::numeric_limits<double>::min());
+            const double least = std::max(noise, std::numeric_limits<double>::min());
             const auto& found = finder_.find(std::max(sign * (start - place), least), sign * (end - place),
-                                             samples_.places(), distance, noise_[k]);
+                                             samples_.places(), distance, noise);
             if (!found.empty()) {
                 if (first.empty() || found.front().tau < first.front().tau)
                     first.assign(1, {k, isUpper, place, found.front().tau});
-            } else if (!(sign * (end - place) >= -noise_[k])) {
+            } else if (!(sign * (end - place) >= -noise)) {
                 isInside = false;
             }
         }
@@ -390,7 +405,9 @@ void AtSwitches::exchange(const Limit& limit, const State& state, double time) {
         const double s = argument(k, state.t, x);
         const auto [low, high] = branches.limits(k, cells_[k]);
         cells = cells_;
-        if (std::abs(s - low) <= noise_[k])
+        if (!branches.moves(k))
+            cells[k] = branches.cellOf(k, s);
+        else if (std::abs(s - low) <= noise_[k])
             cells[k] = cellAt(k, low, state, time);
         else if (std::abs(s - high) <= noise_[k])
             cells[k] = cellAt(k, high, state, time);
@@ -433,6 +450,7 @@ std::unique_ptr<Integrator> AtSwitches::clone() const {
     copy->end_ = end_;
     copy->kicks_ = kicks_;
     copy->shortPieces_ = shortPieces_;
+    copy->stuckSteps_ = stuckSteps_;
     if (side_)
         copy->side_ =
             &copy->sides_.emplace(cells_, Side{side_->mechanics, side_->integrator->clone()}).first->second;
@@ -450,7 +468,7 @@ std::unique_ptr<Integrator> AtSwitches::clone() const {
 
 bool AtSwitches::checkpoint(Archive& archive) {
     bool hasSide = side_ != nullptr;
-    archive(hasSide, cells_, noise_, isContinued_, endTime_, end_, shortPieces_);
+    archive(hasSide, cells_, noise_, isContinued_, endTime_, end_, shortPieces_, stuckSteps_);
     if (archive.isReading() && hasSide) enter(Cells(cells_));
     // A variation that has not yet taken up a kick cannot go on from here.
     const bool isWhole = plain_->checkpoint(archive) && kicks_.empty();

@@ -13,7 +13,7 @@
 /// the limit the branch is that of the formula itself. A motion that is pressed against a limit from both
 /// sides (sliding), that passes more than `mostSwitches` limits in a step or more than `mostShortPieces` in a
 /// row within a 1e-9th of it, or that cannot be continued beyond a limit (sqrt(abs(x))) is stepped by the
-/// formula as it is.
+/// formula as it is; an error control whose steps then lead nowhere ends with the outcome stepBudget.
 ///
 /// The tangent map has the jump of the variation at a switch whose place depends on the state:
 ///     w+ = w- + (f+ - f-) (ds/dx . w-) / (ds/dt)-

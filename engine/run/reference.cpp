@@ -12,6 +12,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/model/typed/branches.hpp"
 #include "engine/run/exact_reference.hpp"
 #include "engine/run/reference_file.hpp"
 #include "engine/run/shared_solution.hpp"
@@ -169,6 +170,34 @@ Reference withoutReference(const std::string& reason) {
     return none;
 }
 
+/// How far the solutions are from one whose initial data are off by some units in the last place, where the
+/// Lagrangian has kinks and jumps: a limit that is touched is passed by one of them, perhaps, and not by
+/// another, and two runs from the same data may take the same side by accident.
+double switchingPart(const std::function<std::function<ExactSolution()>(const State&)>& from, double step,
+                     bool atNodes, const Scene& scene, const System& system, const State& initial,
+                     const std::stop_token& stop) {
+    constexpr double roundOff = std::numeric_limits<double>::epsilon(), units = 64 * roundOff;
+    constexpr int samples = 199;
+    if (!isMechanical(system) || !typed::branchesOf(system.mechanics())) return 0;
+    // Every limit is met to the round-off of t only, whatever the step.
+    const ExactSolution solution = from(initial)();
+    std::vector<double> at(initial.x.size());
+    double most = 0;
+    for (int k = 1; k <= samples && !stop.stop_requested(); ++k) {
+        solution(scene.start.value + (scene.end.value - scene.start.value) * k / samples, at);
+        for (const double x : at)
+            if (std::isfinite(x)) most = std::max(most, 16 * roundOff * std::abs(x));
+    }
+    for (const double sign : {-1.0, 1.0}) {
+        State moved = initial;
+        for (double& x : moved.x) x *= 1 + sign * units;
+        const double error =
+            distance(from(initial)(), from(moved)(), step, atNodes, scene, system, initial, stop);
+        if (std::isfinite(error)) most = std::max(most, error);
+    }
+    return most;
+}
+
 /// Steps of a plan in halves, until two solutions agree.
 Reference refined(const ReferencePlan& plan, const Scene& scene, const System& system, const State& initial,
                   const std::stop_token& stop) {
@@ -176,15 +205,16 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
     const double length = scene.end.value - scene.start.value;
     const Family* const family = familyFor(system);
     const auto failure = std::make_shared<StepFailure>();
-    auto solution = [&](double step) {
+    auto solutionFrom = [&](double step, const State& start) {
         return stepped(
             [make = plan.make, step, stop] {
                 auto integrator = make(step);
                 integrator->setStop(stop);
                 return integrator;
             },
-            initial, scene.end.value, nullptr, failure);
+            start, scene.end.value, nullptr, failure);
     };
+    auto solution = [&](double step) { return solutionFrom(step, initial); };
     if (plan.step > 0) {
         Reference known;
         known.info = {"computed", plan.expectedError,
@@ -201,7 +231,7 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
     const ErrorMeasure measure = errorMeasure(system, initial);
 
     Reference best;
-    double last = std::numeric_limits<double>::infinity();
+    double last = std::numeric_limits<double>::infinity(), bestStep = step;
     for (int refinement = 0; refinement < 8 && !stop.stop_requested(); ++refinement, step /= 2) {
         if (length / step > maxSteps) break;
         auto coarse = solution(step), fine = solution(step / 2);
@@ -210,6 +240,7 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
         if (error < last || refinement == 0) {
             best.info = {"computed", error, plan.description + ", h = " + formatNumber(step / 2, 3)};
             best.make = std::move(fine);
+            bestStep = step / 2;
         }
         if (error <= 2e-13 * std::max(measure.scale, 1.0) || error > last / 4) break;
         last = error;
@@ -224,6 +255,9 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
     // much near a collision, 3.3 times where they agree to the last bits (engine.run.reference).
     constexpr double safety = 3, roundOff = 2e-14;
     best.info.estimatedError = std::max(safety * best.info.estimatedError, roundOff * measure.scale);
+    best.info.estimatedError +=
+        switchingPart([&](const State& start) { return solutionFrom(bestStep, start); }, bestStep,
+                      !family->hasDenseOutput, scene, system, initial, stop);
     return best;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/text.hpp"
 #include "engine/symmetry/candidates.hpp"
+#include "engine/symmetry/moved_jump.hpp"
 #include "engine/symmetry/null_space.hpp"
 #include "engine/symmetry/sample.hpp"
 
@@ -180,6 +181,7 @@ std::vector<Symmetry> search(const System& system) {
     for (Symmetry& s : isSmall ? symmetriesOnSamples(system, StateSampler(mechanics)) : candidates(system)) {
         normalise(s);
         if (!movesSomething(s) || (isPureTime(s) && mechanics.isTimeDependent)) continue;
+        if (movesJump(mechanics, s)) continue;
         Symmetry rounded = s;
         changeAll(rounded, snapped);
         if (std::any_of(found.begin(), found.end(),

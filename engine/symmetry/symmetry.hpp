@@ -11,7 +11,8 @@
 /// in milliseconds for up to 8 coordinates; of more, translations, rotations and boosts of all bodies
 /// together are tried by name.
 /// States near the places where a typed formula changes are among them, and the energy of a formula with t in
-/// it is not conserved, whatever the states say. Not found: symmetries that are not affine in these
+/// it is not conserved, whatever the states say. What moves a jump of a typed formula (sign(x - 50)) is not a
+/// symmetry (moved_jump.hpp). Not found: symmetries that are not affine in these
 /// coordinates (a translation in polar coordinates), and hidden ones (Runge-Lenz).
 #pragma once
 

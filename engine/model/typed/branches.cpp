@@ -52,6 +52,8 @@ public:
             Formula argument = frozen;
             argument.text = s.text;
             s.argument = resolve(argument);
+            for (const int symbol : s.argument.symbol)
+                s.moves = s.moves || (symbol >= 0 && symbol <= formula_.time());
         }
         return made_;
     }

@@ -37,6 +37,8 @@ public:
     /// Whether s depends on the time alone; on velocities.
     bool isOfTime(std::size_t k) const { return switches_[k].isOfTime; }
     bool hasVelocities(std::size_t k) const { return switches_[k].hasVelocities; }
+    /// Whether s moves in a cell, and not with the cells of the switches inside it alone: mod(floor(t), 2).
+    bool moves(std::size_t k) const { return switches_[k].moves; }
     /// s of switch k at (q, v, t), where the switches inside s are in these cells.
     double argument(std::size_t k, const double* inputs, const Cells& cells) const;
     /// The cell that a value of s is in.
@@ -58,7 +60,7 @@ private:
         double offset = 0;         ///< of steps: the limits are n + offset
         std::shared_ptr<const Interpolant> table;
         std::size_t firstMark = 0;  ///< its parameters in the formula
-        bool isOfTime = false, hasVelocities = false;
+        bool isOfTime = false, hasVelocities = false, moves = false;
     };
     friend class BranchReader;
 

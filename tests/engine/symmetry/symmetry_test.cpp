@@ -204,6 +204,37 @@ private slots:
         QCOMPARE(found, expected);
     }
 
+    /// Their derivatives are those of a free body, or of an oscillator, nearly everywhere.
+    void whatMovesAJumpIsNoSymmetry_data() {
+        QTest::addColumn<QString>("found");
+        QTest::addColumn<QString>("expected");
+        const auto row = [](const char* name, const System& system, const char* expected) {
+            QTest::newRow(name) << QString::fromStdString(allOf(system)) << QString(expected);
+        };
+        for (const char* pulse : {"sign(t-50)", "heaviside(t-50)", "if(t<50, 1, 2)", "floor(t/100)",
+                                  "table(t; 0, 0; 1, 2; 60, 3)", "mod(t, 1000)"})
+            row(pulse, typed({"x"}, std::string("x_t^2/2 - x^2/2 + x*") + pulse), "");
+        for (const char* step : {"sign(x-50)", "3*heaviside(x+200)", "floor(x/1000)", "if(x<1e4, 0, 1)",
+                                 "round(x)", "sign(x)*if(x > 3 && x < 5, 2, 1)"})
+            row(step, typed({"x"}, std::string("x_t^2/2 - ") + step), "energy t: 1");
+        const std::string still = "translation.y y: 1 | boost.y y: t; F = y | energy t: 1";
+        row("a wall in the plane", typed({"x", "y"}, kinetic + " - heaviside(x-7)"), still.c_str());
+        row("a round wall", typed({"x", "y"}, kinetic + " - heaviside(x^2+y^2-90)"),
+            "rotation.x-y x: -y, y: x | energy t: 1");
+        row("a wall of a distance", typed({"x", "y"}, kinetic + " - sign(x-y-50)"),
+            "translation.x+y x: 1, y: 1 | boost.x+y x: t, y: t; F = x + y | energy t: 1");
+        // What has no jump after all.
+        row("a kink that is none", typed({"x"}, "x_t^2/2 - sign(x)^2"),
+            allOf(typed({"x"}, "x_t^2/2")).c_str());
+        row("the larger one", typed({"x", "y"}, kinetic + " - max(x, y)"),
+            "translation.x+y x: 1, y: 1; F = -t | boost.x+y x: t, y: t; F = x + y - t^2/2 | energy t: 1");
+    }
+    void whatMovesAJumpIsNoSymmetry() {
+        QFETCH(QString, found);
+        QFETCH(QString, expected);
+        QCOMPARE(found, expected);
+    }
+
     void aNearSymmetryIsNoMomentum() {
         const System system = typed({"x", "y"}, "x_t^2/2 + 1.000001*y_t^2/2 + 1/sqrt(x^2 + y^2)");
         const Symmetry s = named(system, "rotation.x-y");
