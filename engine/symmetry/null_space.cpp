@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/symmetry/jumps.hpp"
+
 namespace extremal {
 namespace {
 
@@ -47,6 +49,11 @@ public:
         for (std::size_t n = 0; n < terms_.size(); ++n)
             row[firstTerm() + static_cast<Index>(n)] =
                 -terms_[n].rateAlong(s.t, s.q.data(), s.v.data()) - terms_[n].rateInTime(s.t, s.q.data());
+    }
+    /// The same in the condition that a jump stays where it is.
+    void fillRow(const Jump& jump, Eigen::Ref<VectorXd> row) const {
+        fillRow(SampledState{jump.t, jump.q, jump.v, 0, jump.st, jump.gradient}, row);
+        row.tail(row.size() - firstTerm()).setZero();
     }
     Symmetry symmetryOf(const VectorXd& u) const {
         Symmetry s;
@@ -121,8 +128,10 @@ std::vector<Symmetry> symmetriesOnSamples(const System& system, const StateSampl
     const int d = system.dimension();
     const Unknowns unknowns(d);
     StateSampler sampler = from;
-    const Index m = unknowns.size(), random = 3 * m + 20, rows = random + sampler.statesAtLandmarks() / 2;
-    MatrixXd M(rows, m);
+    const std::vector<Jump> jumps = jumpsOf(system.mechanics());
+    const Index m = unknowns.size(), random = 3 * m + 20, rows = random + sampler.statesAtLandmarks() / 2,
+                all = rows + static_cast<Index>(jumps.size());
+    MatrixXd M(all, m);
     VectorXd row(m);
     SampledState state;
     for (Index i = 0; i < rows; ++i) {
@@ -132,6 +141,10 @@ std::vector<Symmetry> symmetriesOnSamples(const System& system, const StateSampl
             unknowns.fillRow(state, row);
         else
             row.setZero();
+        M.row(i) = row;
+    }
+    for (Index i = rows; i < all; ++i) {
+        unknowns.fillRow(jumps[static_cast<std::size_t>(i - rows)], row);
         M.row(i) = row;
     }
     const VectorXd scales = equilibrate(M);

@@ -8,7 +8,7 @@
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/text.hpp"
 #include "engine/symmetry/candidates.hpp"
-#include "engine/symmetry/moved_jump.hpp"
+#include "engine/symmetry/jumps.hpp"
 #include "engine/symmetry/null_space.hpp"
 #include "engine/symmetry/sample.hpp"
 
@@ -177,11 +177,13 @@ std::vector<Symmetry> search(const System& system) {
     const Mechanical& mechanics = system.mechanics();
     const bool isSmall = system.dimension() <= mostCoordinates;
     const std::vector<SampledState> states = freshStates(mechanics);
+    const std::vector<Jump> jumps = jumpsOf(mechanics);
     std::vector<Symmetry> found;
     for (Symmetry& s : isSmall ? symmetriesOnSamples(system, StateSampler(mechanics)) : candidates(system)) {
         normalise(s);
         if (!movesSomething(s) || (isPureTime(s) && mechanics.isTimeDependent)) continue;
-        if (movesJump(mechanics, s)) continue;
+        const auto isMoved = [&s](const Jump& jump) { return jump.isMovedBy(s); };
+        if (std::any_of(jumps.begin(), jumps.end(), isMoved)) continue;
         Symmetry rounded = s;
         changeAll(rounded, snapped);
         if (std::any_of(found.begin(), found.end(),

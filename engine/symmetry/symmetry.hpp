@@ -12,7 +12,7 @@
 /// together are tried by name.
 /// States near the places where a typed formula changes are among them, and the energy of a formula with t in
 /// it is not conserved, whatever the states say. What moves a jump of a typed formula (sign(x - 50)) is not a
-/// symmetry (moved_jump.hpp). Not found: symmetries that are not affine in these
+/// symmetry (jumps.hpp). Not found: symmetries that are not affine in these
 /// coordinates (a translation in polar coordinates), and hidden ones (Runge-Lenz).
 #pragma once
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/symmetry/moved_jump.hpp"
+#include "engine/symmetry/jumps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -53,43 +55,67 @@ bool jumps(const Mechanical& mechanics, const Place& at, std::size_t entry) {
     return near > 0 && near > far / 10;
 }
 
-/// (xi, A v + c - tau1 v, tau).
-Place directionOf(const Symmetry& s, const Place& at) {
-    const auto d = static_cast<std::size_t>(s.dimension);
-    Place direction(2 * d + 1);
-    s.displacement(at[2 * d], at.data(), direction.data());
-    for (std::size_t i = 0; i < d; ++i) {
-        direction[d + i] = s.c[i] - s.tau1 * at[d + i];
-        for (std::size_t j = 0; j < d; ++j) direction[d + i] += s.A[i * d + j] * at[d + j];
+/// The derivative of f by one entry, by central differences of order 8 at the step where those of two steps
+/// agree best.
+template <class F>
+double slopeOf(const F& f, Place at, std::size_t entry) {
+    constexpr std::array<double, 4> weights = {4. / 5, -1. / 5, 4. / 105, -1. / 280};
+    const double here = at[entry];
+    double best = 0, least = std::numeric_limits<double>::infinity(), last = NAN, step = 1;
+    for (int k = 0; k < 16; ++k, step /= 2) {
+        double sum = 0;
+        for (std::size_t j = 0; j < weights.size(); ++j) {
+            const double delta = static_cast<double>(j + 1) * step;
+            at[entry] = here + delta;
+            const double above = f(at);
+            at[entry] = here - delta;
+            sum += weights[j] * (above - f(at));
+        }
+        const double now = sum / step, change = std::abs(now - last);
+        if (change < least) {
+            least = change;
+            best = now;
+        }
+        last = now;
     }
-    direction[2 * d] = s.tau0 + s.tau1 * at[2 * d];
-    return direction;
+    return best;
 }
 
-/// Whether f changes along a direction, and not by rounding alone.
 template <class F>
-bool changesAlong(const F& f, const Place& at, const Place& direction) {
-    constexpr double part = 1e-6, share = 1e-6;
-    double sum = 0, size = 0;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        Place moved = at;
-        const double delta = part * std::max(1.0, std::abs(at[i]));
-        moved[i] = at[i] + delta;
-        const double above = f(moved);
-        moved[i] = at[i] - delta;
-        const double term = (above - f(moved)) / (2 * delta) * direction[i];
-        sum += term;
-        size += std::abs(term);
-    }
-    return std::abs(sum) > share * size;
+Jump jumpAt(const Place& at, std::size_t d, const F& argument) {
+    const auto begin = at.begin(), middle = begin + static_cast<std::ptrdiff_t>(d);
+    Jump jump{at[2 * d], {begin, middle}, {middle, middle + static_cast<std::ptrdiff_t>(d)}, {}, 0};
+    for (std::size_t i = 0; i < 2 * d; ++i) jump.gradient.push_back(slopeOf(argument, at, i));
+    jump.st = slopeOf(argument, at, 2 * d);
+    return jump;
 }
 
 }  // namespace
 
-bool movesJump(const Mechanical& mechanics, const Symmetry& symmetry) {
+bool Jump::isMovedBy(const Symmetry& s) const {
+    constexpr double share = 1e-9;
+    const std::size_t d = q.size();
+    double sum = 0, size = 0;
+    const auto add = [&](double term) {
+        sum += term;
+        size += std::abs(term);
+    };
+    std::vector<double> xi(d);
+    s.displacement(t, q.data(), xi.data());
+    for (std::size_t i = 0; i < d; ++i) {
+        add(gradient[i] * xi[i]);
+        add(gradient[d + i] * (s.c[i] - s.tau1 * v[i]));
+        for (std::size_t j = 0; j < d; ++j) add(gradient[d + i] * s.A[i * d + j] * v[j]);
+    }
+    add(st * (s.tau0 + s.tau1 * t));
+    return !(std::abs(sum) <= share * size);
+}
+
+std::vector<Jump> jumpsOf(const Mechanical& mechanics) {
     constexpr int samples = 6;
     const auto branches = typed::branchesOf(mechanics);
-    if (!branches) return false;
+    std::vector<Jump> found;
+    if (!branches) return found;
     StateSampler sampler(mechanics, 1642);
     SampledState state;
     for (int sample = 0; sample < samples && sampler.next(state); ++sample) {
@@ -99,19 +125,18 @@ bool movesJump(const Mechanical& mechanics, const Symmetry& symmetry) {
         typed::Branches::Cells cells(branches->size(), 1);
         for (std::size_t k = 0; k < branches->size(); ++k) {
             cells[k] = branches->cellOf(k, branches->argument(k, start.data(), cells));
+            if (!branches->moves(k)) continue;
             const auto [low, high] = branches->limits(k, cells[k]);
             const double limit = std::isfinite(low) ? low : high;
             const auto distance = [&](const Place& at) {
                 return branches->argument(k, at.data(), cells) - limit;
             };
             for (std::size_t entry = 0; entry < start.size(); ++entry)
-                if (const auto at = onZero(start, entry, distance);
-                    at && jumps(mechanics, *at, entry) &&
-                    changesAlong(distance, *at, directionOf(symmetry, *at)))
-                    return true;
+                if (const auto at = onZero(start, entry, distance); at && jumps(mechanics, *at, entry))
+                    found.push_back(jumpAt(*at, state.q.size(), distance));
         }
     }
-    return false;
+    return found;
 }
 
 }  // namespace extremal
