@@ -16,7 +16,7 @@ namespace {
 constexpr int mostSwitches = 1000, mostShortPieces = 50, mostStuckSteps = 1000;
 constexpr double shortPiece = 1e-9;  ///< of a step
 constexpr std::size_t mostSides = 32;
-constexpr double roundOff = std::numeric_limits<double>::epsilon();
+constexpr double landingRoundOff = std::numeric_limits<double>::epsilon();
 
 using Cells = typed::Branches::Cells;
 
@@ -245,7 +245,7 @@ StepReport AtSwitches::attempt(State& state, double until) {
         whole.residual = std::max(whole.residual, part.residual);
         whole.outcome = isFollowed ? part.outcome : Outcome::diverged;
         if (whole.outcome != Outcome::converged) return whole;
-        if (std::abs(until - state.t) <= 2 * roundOff * std::abs(until)) {
+        if (std::abs(until - state.t) <= 2 * landingRoundOff * std::abs(until)) {
             state.t = until;
             return whole;
         }
@@ -267,8 +267,9 @@ bool AtSwitches::piece(State& state, double until, StepReport& report) {
         const double whole = plain_->stepSize();
         if (isFixed()) {
             // On the nodes of the grid itself the step is that of the grid, to the last bit.
-            const bool isWhole = pieces_.empty() && std::abs(until - before.t - whole) <=
-                                                        8 * roundOff * (std::abs(until) + std::abs(whole));
+            const bool isWhole =
+                pieces_.empty() && std::abs(until - before.t - whole) <=
+                                       8 * landingRoundOff * (std::abs(until) + std::abs(whole));
             side_->integrator->setStep(isWhole ? whole : until - before.t);
         }
         const StepReport trial = side_->integrator->advance(state, until);
@@ -376,7 +377,8 @@ AtSwitches::Landing AtSwitches::land(State& state, const State& before, double l
         if (!std::isfinite(distance)) return Landing::failed;
         (distance > 0 ? low : high) = part;
         double next = part - distance / rate;
-        const double finest = 2 * roundOff * std::max(std::abs(until), std::abs(length)) / std::abs(length);
+        const double finest =
+            2 * landingRoundOff * std::max(std::abs(until), std::abs(length)) / std::abs(length);
         if (distance == 0 || high - low <= finest || std::abs(next - part) <= finest / 2)
             return Landing::onLimit;
         if (!(next > low && next < high)) next = (low + high) / 2;

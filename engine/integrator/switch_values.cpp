@@ -8,7 +8,7 @@
 namespace extremal {
 namespace {
 
-constexpr double roundOff = std::numeric_limits<double>::epsilon();
+constexpr double switchRoundOff = std::numeric_limits<double>::epsilon();
 constexpr double partOfTime = 1e-6;  ///< of central differences
 
 }  // namespace
@@ -81,7 +81,7 @@ double SwitchValues::noise(std::size_t k, double t, const double* x, const Mecha
         sum += std::abs(at(k, t, moved.data(), mechanics, cells) - here) / part;
         moved(i) = before;
     }
-    return std::isfinite(sum) ? 16 * roundOff * sum : 0;
+    return std::isfinite(sum) ? 16 * switchRoundOff * sum : 0;
 }
 
 }  // namespace extremal

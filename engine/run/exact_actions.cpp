@@ -43,7 +43,7 @@ void fit(ActionDefect& result) {
     result.order = lineThrough(x, y).slope;
 }
 
-constexpr int mostSteps = 20;
+constexpr int mostLengths = 20;
 
 /// Both actions after step i of the sequence; h is 0 where they are not known.
 struct DefectPoint {
@@ -55,7 +55,7 @@ struct DefectPoint {
 ActionDefect defectOf(const std::function<DefectPoint(int i)>& at, const std::stop_token& stop) {
     ActionDefect result;
     bool isKnown = false;
-    for (int i = 0; i < mostSteps && !stop.stop_requested(); ++i) {
+    for (int i = 0; i < mostLengths && !stop.stop_requested(); ++i) {
         const auto [h, action] = at(i);
         if (!(h > 0)) continue;
         isKnown = true;

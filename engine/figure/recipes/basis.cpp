@@ -23,7 +23,7 @@ namespace extremal::recipes {
 namespace {
 
 /// What a scheme shows in a direction: its functions, or why it has none.
-struct Shown {
+struct ShownFunctions {
     std::optional<Table<double>> ofTime;
     std::optional<SpaceFunctions> ofSpace;
     std::string failure;
@@ -36,7 +36,7 @@ State startOf(const FigureContext& context, const SchemeResult& scheme) {
     return initialState(context.comparison.scene, *context.system);
 }
 
-Shown functionsOf(const FigureContext& context, const SchemeResult& scheme, bool isSpace) {
+ShownFunctions functionsOf(const FigureContext& context, const SchemeResult& scheme, bool isSpace) {
     const Discretization* const plain = scheme.scheme ? scheme.scheme->plain() : nullptr;
     if (!plain) return {{}, {}, "not a discretization"};
     if (!scheme.scheme->properties.refusal.empty()) return {{}, {}, scheme.scheme->properties.refusal};
@@ -118,7 +118,7 @@ Figure makeBasis(const FigureContext& context) {
     figure.x.title = "τ";
     figure.x.range = {0, 1};
     figure.y.title = "φ";
-    Shown shown;
+    ShownFunctions shown;
     std::string reasons;
     const SchemeResult* const scheme = schemeOf(context, [&](const SchemeResult& s) {
         if (!context.system || (!context.view.scheme.empty() && s.spec.label != context.view.scheme))
