@@ -27,11 +27,13 @@ inline std::string actionMissing(const View&, const System& system) {
 inline bool isOfSpace(const View& view) { return view.keys.text("direction") == "space"; }
 
 inline std::string functionsMissing(const View& view, const System& system) {
-    if (isOfSpace(view))
-        return missingEquations(system, "functions of space", [](const StepEquations& e) {
-            return e.spaceFunctions.make ? nullptr : e.spaceFunctions.instead;
-        });
-    return missingEquations(system, "functions of time", [](const StepEquations& e) {
+    const std::string ofSpace = missingEquations(system, "functions of space", [](const StepEquations& e) {
+        return e.spaceFunctions.make ? nullptr : e.spaceFunctions.instead;
+    });
+    if (isOfSpace(view)) return ofSpace;
+    const std::string what =
+        ofSpace.empty() ? "\"direction\": \"space\", or functions of time" : "functions of time";
+    return missingEquations(system, what, [](const StepEquations& e) {
         return e.functions.make ? nullptr : e.functions.instead;
     });
 }

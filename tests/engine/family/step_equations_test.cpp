@@ -467,6 +467,11 @@ private slots:
         QCOMPARE(read.errors.size(), std::size_t(1));
         QCOMPARE(read.errors[0].pointer, std::string("/views/0"));
         QVERIFY(read.errors[0].hint.find("functions of time alone") != std::string::npos);
+        // The other way round the remedy is named, and works (functionsOfSpaceAndTime).
+        const ReadScene still =
+            readScene(std::string(findPreset("elliptic")->json), {{"/views", Value::Array{Value("basis")}}});
+        QCOMPARE(still.errors.size(), std::size_t(1));
+        QVERIFY(still.errors[0].hint.starts_with("it needs \"direction\": \"space\""));
     }
 };
 
