@@ -7,6 +7,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/switch_values.hpp"
 #include "engine/run/judge.hpp"
 #include "engine/scene/scheme_stability.hpp"
 
@@ -84,6 +85,24 @@ std::string instabilityAdvice(const ResolvedScheme& scheme, const System& system
            shorterStep(scheme, system, initial, step, std::floor(edge / unit) * unit);
 }
 
+/// Whether a straight step from the state leaves the branches that a typed formula has there.
+bool passesSwitch(const System& system, const State& state, double step) {
+    const auto branches = isMechanical(system) ? typed::branchesOf(system.mechanics()) : nullptr;
+    if (!branches) return false;
+    const Mechanical& mechanics = system.mechanics();
+    SwitchValues values(branches);
+    const Eigen::VectorXd start =
+        Eigen::Map<const Eigen::VectorXd>(state.x.data(), static_cast<Eigen::Index>(state.x.size()));
+    const Eigen::VectorXd end = start + step * values.flow(state.t, start.data(), mechanics);
+    const auto cellsAt = [&](double t, const Eigen::VectorXd& x) {
+        typed::Branches::Cells cells(branches->size(), 1);
+        for (std::size_t k = 0; k < cells.size(); ++k)
+            cells[k] = branches->cellOf(k, values.at(k, t, x.data(), mechanics, cells));
+        return cells;
+    };
+    return cellsAt(state.t, start) != cellsAt(state.t + step, end);
+}
+
 }  // namespace
 
 std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
@@ -128,6 +147,11 @@ std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step
     if (w > 0 && length * w > 0.5)
         return "h ω = " + formatNumber(length * w, 2) + " is large for the solver. " +
                shorterStep(scheme, system, state, step, 0.5 / w);
+    if (outcome == Outcome::diverged && passesSwitch(system, state, step))
+        return "The step passes a kink or a jump of the formula: where the forces of its two sides differ, "
+               "the equations of a step may have no solution. A code under error control, such as dopri5, "
+               "ends its steps there. " +
+               shorterStep(scheme, system, state, step, length / 2);
     return "The step has no solution that the solver finds. " +
            shorterStep(scheme, system, state, step, length / 2);
 }

@@ -70,6 +70,20 @@ private slots:
         }
         QVERIFY(advised > 0);
     }
+
+    /// Midpoint in two wedges: at t = 0.65 no state satisfies the equations of the step.
+    void aJumpOfTheForcesIsNamed() {
+        std::string json =
+            "{'extremal': 1, 'reference': 'none', 'model': {'type': 'lagrangian', "
+            "'coordinates': ['x', 'y'], 'lagrangian': '(x_t^2+y_t^2)/2 - max(x,y) - "
+            "abs(x+y)'}, 'initial': {'q': [1, 0.3], 'p': [0, 0.7]}, 'time': {'end': 20}, "
+            "'schemes': [{'scheme': 'midpoint', 'step': 0.05}]}";
+        std::replace(json.begin(), json.end(), '\'', '"');
+        const Summary failed = run(readScene(json).scene).schemes.front()->summary;
+        QCOMPARE(failed.cause, Outcome::diverged);
+        QVERIFY2(failed.advice.find("passes a kink or a jump") != std::string::npos, failed.advice.c_str());
+        QVERIFY2(failed.advice.find("Try h \u2264 0.025") != std::string::npos, failed.advice.c_str());
+    }
 };
 
 EXTREMAL_TEST(AdviceTest)
