@@ -17,6 +17,7 @@
 #include "engine/run/reference_file.hpp"
 #include "engine/run/shared_solution.hpp"
 #include "engine/run/stepped_solution.hpp"
+#include "engine/run/wave_mesh_error.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/companion.hpp"
 #include "engine/scene/premise.hpp"
@@ -275,7 +276,11 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
         throw InvalidScene("/reference", "no exact solution is known from these initial data",
                            "use \"auto\"");
     if (onMeshes) return computedOnMesh(resolved, *onMeshes, stop);
-    return computed(scene, system, initial, stop);
+    Reference reference = computed(scene, system, initial, stop);
+    if (isWave(system) && reference.make && !stop.stop_requested())
+        reference.info.estimatedError = std::max(reference.info.estimatedError,
+                                                 meshErrorOf(scene, system, initial, reference.make(), stop));
+    return reference;
 }
 
 namespace {

@@ -130,20 +130,21 @@ public:
         return start.empty() ? 0 : between(coarse, stateOf(initial_.t, start), h_, initial_);
     }
     /// By the trapezoidal rule over the run.
-    double boundBy(const Shared& fine) const {
+    double boundBy(const Shared& fine, const ExactSolution& motion) const {
         const Embedding embed(*h_, *fine);
-        const ExactSolution motion = exactWave(h_, initial_);
         const auto n = static_cast<std::size_t>(h_->size()), m = static_cast<std::size_t>(fine->size());
         Coefficients low(n), high(m), workLow(n), workHigh(m);
+        std::vector<double> V(n), fineV(m);
         std::vector<double> x(initial_.x.size());
         const Coefficients start = startOn(fine, scene_);
         double error = start.empty() ? 0 : differenceOf(embed(coefficients(initial_.x.data())), start);
         const double step = std::abs(scene_.end.value - scene_.start.value) / (meshSamples - 1);
         for (int k = 0; k < meshSamples && !stop_.stop_requested(); ++k) {
             motion(time(k), x);
-            h_->apply(h_->potential().data(), coefficients(x.data()), low.data(), workLow.data());
-            fine->apply(fine->potential().data(), embed(coefficients(x.data())).data(), high.data(),
-                        workHigh.data());
+            h_->potentialAt(time(k), V.data());
+            fine->potentialAt(time(k), fineV.data());
+            h_->apply(V.data(), coefficients(x.data()), low.data(), workLow.data());
+            fine->apply(fineV.data(), embed(coefficients(x.data())).data(), high.data(), workHigh.data());
             const double defect = differenceOf(embed(low.data()), high) / h_->hbar();
             error += defect * step * (k == 0 || k == meshSamples - 1 ? 0.5 : 1);
         }
@@ -160,6 +161,20 @@ private:
     const std::stop_token& stop_;
 };
 
+Shared refined(const Hamiltonian& h) {
+    const wave::Grid& grid = h.grid();
+    return h.withModes(2 * grid.nx, grid.ny > 1 ? 2 * grid.ny : 1);
+}
+
+/// What is said, from what was found in the coefficients.
+double asSeenAtNodes(double found, const Hamiltonian& h, const State& initial) {
+    // At the nodes of the coarse mesh, where schemes are compared, it may be a little larger than as a
+    // function.
+    constexpr double atNodes = 1.2;
+    // Two unit vectors are not further apart than 2.
+    return std::min(atNodes * found, 2 * std::sqrt(squaredNorm(coefficients(initial.x.data()), h.size())));
+}
+
 }  // namespace
 
 double meshErrorOf(const Scene& scene, const System& system, const State& initial,
@@ -168,19 +183,20 @@ double meshErrorOf(const Scene& scene, const System& system, const State& initia
     const MeshError error(scene, h, initial, stop);
     const wave::Grid& grid = h->grid();
     const int ny = grid.ny > 1 ? 2 * grid.ny : 1;
-    // Two unit vectors are not further apart than 2.
-    const double norm = std::sqrt(squaredNorm(coefficients(initial.x.data()), h->size()));
-    // At the nodes of the coarse mesh, where schemes are compared, it may be a little larger than as a
-    // function.
-    constexpr double atNodes = 1.2;
     double found = 0;
     if (2 * grid.nx * ny <= Eigenstates::denseLimit)
-        found = error.againstFiner(h->withModes(2 * grid.nx, ny));
+        found = error.againstFiner(refined(*h));
     else if (h->isSplit())
-        found = error.boundBy(h->withModes(2 * grid.nx, ny));
+        found = error.boundBy(refined(*h), exactWave(h, initial));
     else
         found = error.againstCoarser(h->withModes(grid.nx / 2));
-    return std::min(atNodes * found, 2 * norm);
+    return asSeenAtNodes(found, *h, initial);
+}
+
+double meshErrorOf(const Scene& scene, const System& system, const State& initial,
+                   const ExactSolution& motion, const std::stop_token& stop) {
+    const Shared& h = system.hamiltonian();
+    return asSeenAtNodes(MeshError(scene, h, initial, stop).boundBy(refined(*h), motion), *h, initial);
 }
 
 }  // namespace extremal
