@@ -16,7 +16,7 @@ bool isIn(std::string_view name, std::initializer_list<std::string_view> names) 
 /// Writes parts of an expression.
 class Writer {
 public:
-    Writer(const Expression& expression, const Replacement& replacement)
+    Writer(const Expression& expression, const TextOfNode& replacement)
         : expression_(expression), replacement_(replacement) {}
 
     std::string write(int n) const {
@@ -72,18 +72,18 @@ private:
     }
 
     const Expression& expression_;
-    const Replacement& replacement_;
+    const TextOfNode& replacement_;
 };
 
 }  // namespace
 
-std::string writtenPart(const Expression& expression, int node, const Replacement& replacement) {
+std::string writtenPart(const Expression& expression, int node, const TextOfNode& replacement) {
     return Writer(expression, replacement).write(node);
 }
 
 std::vector<SwitchingFunction> switchingFunctions(const Expression& expression) {
     std::vector<SwitchingFunction> found;
-    const Replacement asItIs;
+    const TextOfNode asItIs;
     const Writer writer(expression, asItIs);
     const auto add = [&](const std::string& text, bool mayJump) {
         const auto same = std::find_if(found.begin(), found.end(),

@@ -26,9 +26,9 @@ std::vector<SwitchingFunction> switchingFunctions(const Expression& expression);
 
 /// What is written in place of a node, if anything is; `write` writes its operands in the same way.
 using WritePart = std::function<std::string(int node)>;
-using Replacement = std::function<std::optional<std::string>(int node, const WritePart& write)>;
+using TextOfNode = std::function<std::optional<std::string>(int node, const WritePart& write)>;
 
 /// A part of an expression as it could be typed, with the names that functions have inside ("log" for ln).
-std::string writtenPart(const Expression& expression, int node, const Replacement& replacement = {});
+std::string writtenPart(const Expression& expression, int node, const TextOfNode& replacement = {});
 
 }  // namespace extremal
