@@ -27,6 +27,13 @@ double SwitchValues::at(std::size_t k, double t, const double* x, const Mechanic
     return branches_->argument(k, inputs_.data(), cells);
 }
 
+typed::Branches::Cells SwitchValues::cells(double t, const double* x, const Mechanics<double>& mechanics) {
+    typed::Branches::Cells found(branches_->size(), 1);
+    for (std::size_t k = 0; k < found.size(); ++k)
+        found[k] = branches_->cellOf(k, at(k, t, x, mechanics, found));
+    return found;
+}
+
 Eigen::VectorXd SwitchValues::flow(double t, const double* x, const Mechanics<double>& mechanics) const {
     const int d = mechanics.dimension;
     Eigen::VectorXd f(2 * d);

@@ -22,6 +22,8 @@ public:
     /// s of switch k at (t, x), x = (q, p). `mechanics`: in these cells.
     double at(std::size_t k, double t, const double* x, const Mechanics<double>& mechanics,
               const typed::Branches::Cells& cells);
+    /// The cells of (t, x). `mechanics`: of the formula as it is.
+    typed::Branches::Cells cells(double t, const double* x, const Mechanics<double>& mechanics);
     /// ds/dt along the motion. `time`: on which it changes.
     double rate(std::size_t k, double t, const double* x, double time, const Mechanics<double>& mechanics,
                 const typed::Branches::Cells& cells);

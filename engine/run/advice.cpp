@@ -94,13 +94,8 @@ bool passesSwitch(const System& system, const State& state, double step) {
     const Eigen::VectorXd start =
         Eigen::Map<const Eigen::VectorXd>(state.x.data(), static_cast<Eigen::Index>(state.x.size()));
     const Eigen::VectorXd end = start + step * values.flow(state.t, start.data(), mechanics);
-    const auto cellsAt = [&](double t, const Eigen::VectorXd& x) {
-        typed::Branches::Cells cells(branches->size(), 1);
-        for (std::size_t k = 0; k < cells.size(); ++k)
-            cells[k] = branches->cellOf(k, values.at(k, t, x.data(), mechanics, cells));
-        return cells;
-    };
-    return cellsAt(state.t, start) != cellsAt(state.t + step, end);
+    return values.cells(state.t, start.data(), mechanics) !=
+           values.cells(state.t + step, end.data(), mechanics);
 }
 
 }  // namespace

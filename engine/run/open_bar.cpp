@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/core/text.hpp"
+#include "engine/integrator/switch_values.hpp"
 #include "engine/run/error_floor.hpp"
 #include "engine/scene/companion.hpp"
 
@@ -99,6 +102,27 @@ private:
     std::vector<double> from_, to_, middle_, x_;
 };
 
+/// Whether rows lie in other branches of a typed formula than those before them.
+class Kinks {
+public:
+    explicit Kinks(const System& system) : system_(system) {
+        if (!isMechanical(system)) return;
+        if (auto branches = typed::branchesOf(system.mechanics())) values_.emplace(std::move(branches));
+    }
+    bool isPassed(double t, const std::vector<double>& x) {
+        if (!values_) return false;
+        typed::Branches::Cells cells = values_->cells(t, x.data(), system_.mechanics());
+        const bool isOther = !last_.empty() && cells != last_;
+        last_ = std::move(cells);
+        return isOther;
+    }
+
+private:
+    const System& system_;
+    std::optional<SwitchValues> values_;
+    typed::Branches::Cells last_;
+};
+
 }  // namespace
 
 void judgeAgreement(SchemeResult& result, const System& system, const State& initial,
@@ -120,6 +144,9 @@ void judgeAgreement(SchemeResult& result, const System& system, const State& ini
     const std::vector<double>& t = rows.columns.front().values;
     double largest = floor;
     Jumps jumps(system, width);
+    Kinks kinks(system);
+    // Over a kink of the force a step has the order 2, and so has its companion. Error controls end there.
+    const bool losesOrder = result.scheme && !result.scheme->isAdaptive() && result.scheme->claims.order > 2;
     std::vector<double> before(width);
     for (std::size_t r = 0; r < t.size() && !stop.stop_requested(); ++r) {
         if (summary.opensAt <= t[r]) return;
@@ -130,6 +157,13 @@ void judgeAgreement(SchemeResult& result, const System& system, const State& ini
             summary.caution = "the error bar is open from t = " + formatNumber(t[r], 3) +
                               " on: the forces jump there, and what a step over a jump errs by depends on "
                               "where it falls in the step, for the companion as well";
+            return;
+        }
+        if (losesOrder && kinks.isPassed(t[r], x)) {
+            summary.opensAt = t[r];
+            summary.caution = "the error bar is open from t = " + formatNumber(t[r], 3) +
+                              " on: the formula has a kink there, over which the scheme and its companion "
+                              "lose their orders";
             return;
         }
         if (!second) continue;
