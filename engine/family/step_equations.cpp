@@ -71,7 +71,7 @@ const StepEquations& equationsOf(const Discretization& discretization) {
 std::optional<LocalCoordinates> localCoordinates(const System& system, const State& start) {
     for (const StepEquations& e : stepEquations()) {
         const Family* const family = findFamily(e.family);
-        if (e.coordinates.make && family && family->applies(system)) return e.coordinates.make(system, start);
+        if (e.coordinates.make && family && appliesTo(*family, system)) return e.coordinates.make(system, start);
     }
     return {};
 }
@@ -92,7 +92,7 @@ std::string missingEquations(const System& system, const std::string& what,
     std::string others;
     for (const StepEquations& e : stepEquations()) {
         const Family* const family = findFamily(e.family);
-        if (!family || !family->applies(system)) continue;
+        if (!family || !appliesTo(*family, system)) continue;
         const char* const reason = instead(e);
         if (!reason) return {};
         others += (others.empty() ? "" : ", or ") + std::string(reason);

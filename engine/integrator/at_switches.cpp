@@ -130,7 +130,7 @@ Side& AtSwitches::sideOf(const Cells& cells) {
     Side side;
     side.mechanics = values_.branches().in(cells);
     System system = system_;
-    system.kind = side.mechanics;
+    system.parts.set(side.mechanics);
     side.integrator = make_(system);
     if (isFixed()) side.integrator->setStep(plain_->stepSize());
     return sides_.emplace(cells, std::move(side)).first->second;

@@ -313,6 +313,22 @@ private slots:
         const Comparison bar = run(sparse.scene);
         QVERIFY2(std::isnan(bar.schemes[0]->summary.opensAt), bar.schemes[0]->summary.caution.c_str());
     }
+    /// Of V = x^2 on the left and x^2/8 on the right, which is left for the first time at pi:
+    /// galerkin-gauss-4 had bars from 0 to 2 times its error up to t = 15.
+    void aKinkOpensTheBarOfHighOrders() {
+        const auto opensAt = [](const std::string& scheme) {
+            const ReadScene read = readScene(
+                "{\"extremal\": 1, \"model\": {\"type\": \"lagrangian\", \"coordinates\": [\"x\"], "
+                "\"lagrangian\": \"x_t^2/2 - if(x<0, x^2, x^2/8)\"}, \"initial\": {\"q\": [0.7]}, "
+                "\"time\": {\"end\": 30}, \"observe\": [\"error\"], \"reference\": \"companion\", "
+                "\"schemes\": [" +
+                scheme + "]}");
+            return run(read.scene).schemes[0]->summary.opensAt;
+        };
+        QVERIFY(std::abs(opensAt("{\"step\": 0.1, \"scheme\": \"galerkin-gauss-4\"}") - 3.2) < 1e-9);
+        QVERIFY(std::isnan(opensAt("{\"step\": 0.1, \"scheme\": \"midpoint\"}")));
+        QVERIFY(std::isnan(opensAt("{\"tolerance\": 1e-8, \"baseline\": \"dopri5\"}")));
+    }
     /// A force that jumps in time, and one that is seen on one coordinate alone.
     void everyJumpOfTheForcesOpensTheBar() {
         for (
