@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include "engine/integrator/crossing.hpp"
@@ -14,8 +15,9 @@ namespace extremal {
 namespace {
 
 constexpr int mostSwitches = 1000, mostShortPieces = 50, mostStuckSteps = 1000;
-constexpr double shortPiece = 1e-9;  ///< of a step
-constexpr std::size_t mostSides = 32;
+constexpr double shortPiece = 1e-9;     ///< of a step
+constexpr std::size_t mostSides = 256;  ///< that are kept
+constexpr int mostSidesMade = 2000;     ///< in a run: each takes the time of some hundred steps
 constexpr double landingRoundOff = std::numeric_limits<double>::epsilon();
 
 using Cells = typed::Branches::Cells;
@@ -84,7 +86,8 @@ private:
     void forget() {
         pieces_.clear();
         isContinued_ = false;
-        stuckSteps_ = 0;
+        stuckSteps_ = sidesMade_ = 0;
+        wasPlain_ = false;
         sides_.clear();
         side_ = nullptr;
     }
@@ -119,7 +122,8 @@ private:
     std::vector<double> end_;  ///< state at the end of the last step
     std::vector<Piece> pieces_;
     std::vector<Kick> kicks_;  ///< at the start of the next piece
-    int shortPieces_ = 0, stuckSteps_ = 0;
+    int shortPieces_ = 0, stuckSteps_ = 0, sidesMade_ = 0;
+    bool wasPlain_ = false;  ///< the last step
     StepSamples samples_;
     CrossingFinder finder_;
 };
@@ -127,6 +131,7 @@ private:
 Side& AtSwitches::sideOf(const Cells& cells) {
     const auto found = sides_.find(cells);
     if (found != sides_.end()) return found->second;
+    if (++sidesMade_ > mostSidesMade) throw std::length_error("too many branches");
     Side side;
     side.mechanics = values_.branches().in(cells);
     System system = system_;
@@ -182,6 +187,7 @@ void AtSwitches::settle(const State& state, double time) {
 StepReport AtSwitches::advance(State& state, double until) {
     if (state.memory.empty() && !memoryParts().empty()) begin(state);
     pieces_.clear();
+    if (sidesMade_ > mostSidesMade) return plainStep(state, until);
     const bool goesOn = isContinued_ && endTime_ == state.t && end_ == state.x;
     isContinued_ = false;
     if (sides_.size() > mostSides) {
@@ -203,6 +209,7 @@ StepReport AtSwitches::advance(State& state, double until) {
         isFollowed = false;  // a branch by itself has no Lagrangian that can be stepped
     }
     if (isFollowed) {
+        wasPlain_ = false;
         if (report.outcome != Outcome::converged) return report;
         endTime_ = state.t;
         end_ = state.x;
@@ -228,6 +235,7 @@ StepReport AtSwitches::plainStep(State& state, double until) {
     pieces_.clear();
     kicks_.clear();
     plain_->setStop(stop());
+    if (!std::exchange(wasPlain_, true)) plain_->begin(*std::make_unique<State>(state));
     const double from = state.t;
     const StepReport report = plain_->advance(state, until);
     if (report.outcome != Outcome::converged) return report;
@@ -417,8 +425,7 @@ void AtSwitches::exchange(const Limit& limit, const State& state, double time) {
             cells[k] = branches.cellOf(k, s);
         if (cells != cells_) enter(cells);
     }
-    State forgotten = state;
-    side_->integrator->begin(forgotten);
+    side_->integrator->begin(*std::make_unique<State>(state));
     if (kick.slope.size() == 0) return;
     kick.jump = values_.flow(state.t, x, side_->mechanics) - flowBefore;
     if (kick.jump.cwiseAbs().maxCoeff() > 0) kicks_.push_back(std::move(kick));
@@ -453,6 +460,8 @@ std::unique_ptr<Integrator> AtSwitches::clone() const {
     copy->kicks_ = kicks_;
     copy->shortPieces_ = shortPieces_;
     copy->stuckSteps_ = stuckSteps_;
+    copy->sidesMade_ = sidesMade_;
+    copy->wasPlain_ = wasPlain_;
     if (side_)
         copy->side_ =
             &copy->sides_.emplace(cells_, Side{side_->mechanics, side_->integrator->clone()}).first->second;
@@ -470,7 +479,8 @@ std::unique_ptr<Integrator> AtSwitches::clone() const {
 
 bool AtSwitches::checkpoint(Archive& archive) {
     bool hasSide = side_ != nullptr;
-    archive(hasSide, cells_, noise_, isContinued_, endTime_, end_, shortPieces_, stuckSteps_);
+    archive(hasSide, cells_, noise_, isContinued_, endTime_, end_, shortPieces_, stuckSteps_, sidesMade_,
+            wasPlain_);
     if (archive.isReading() && hasSide) enter(Cells(cells_));
     // A variation that has not yet taken up a kick cannot go on from here.
     const bool isWhole = plain_->checkpoint(archive) && kicks_.empty();

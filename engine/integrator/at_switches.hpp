@@ -10,10 +10,11 @@
 ///
 /// A limit that is touched and not passed is no reason to stop. Where the argument of a switch is on a limit
 /// at the start, the direction of the motion decides, by its first and then its second derivative; at rest on
-/// the limit the branch is that of the formula itself. A motion that is pressed against a limit from both
-/// sides (sliding), that passes more than `mostSwitches` limits in a step or more than `mostShortPieces` in a
-/// row within a 1e-9th of it, or that cannot be continued beyond a limit (sqrt(abs(x))) is stepped by the
-/// formula as it is; an error control whose steps then lead nowhere ends with the outcome stepBudget.
+/// the limit the branch is that of the formula itself. The formula is stepped as it is where a motion is
+/// pressed against a limit from both sides (sliding), passes more than `mostSwitches` limits in a step, more
+/// than `mostShortPieces` in a row within 1e-9 of it, or comes to more than `mostSidesMade` branches
+/// (floor(1e6 t)), and where it cannot be continued beyond a limit (sqrt(abs(x))). An error control whose
+/// steps then lead nowhere ends with the outcome stepBudget.
 ///
 /// The tangent map has the jump of the variation at a switch whose place depends on the state:
 ///     w+ = w- + (f+ - f-) (ds/dx . w-) / (ds/dt)-
