@@ -75,6 +75,7 @@ public:
         takes.isEverything_ = true;
         return takes;
     }
+    bool isEverything() const { return isEverything_; }
     const std::vector<const PartInfo*>& all() const { return parts_; }  ///< empty where it is everything
     bool contains(const PartInfo& part) const {
         return isEverything_ || std::find(parts_.begin(), parts_.end(), &part) != parts_.end();
@@ -100,12 +101,20 @@ inline std::string untaken(const Takes& takes, const Parts& parts) {
     return joinTitles(missed, " and ");
 }
 
+/// Whether all needs are taken. Whoever takes certain parts needs one of them at least.
+inline bool isTaken(const Takes& takes, const Parts& parts) {
+    const std::vector<const PartInfo*> needs = parts.needs();
+    return takes.isEverything() ||
+           (!needs.empty() &&
+            std::all_of(needs.begin(), needs.end(), [&](const PartInfo* p) { return takes.contains(*p); }));
+}
+
 /// What is needed in place of a problem that is not taken. Where a part of it is taken, it is the same
 /// without the others: "a problem without a force"; else what is taken: "a field or a wave function". Empty:
 /// it is taken.
 inline std::string neededInstead(const Takes& takes, const Parts& parts) {
+    if (isTaken(takes, parts)) return {};
     const std::string missed = untaken(takes, parts);
-    if (missed.empty()) return {};
     const std::vector<const PartInfo*> needs = parts.needs();
     const bool isPartly =
         std::any_of(needs.begin(), needs.end(), [&](const PartInfo* p) { return takes.contains(*p); });

@@ -258,7 +258,7 @@ const Kind* kindOf(const System& system) {
 }
 /// Whether a Lagrangian in coordinates is all that moves the system.
 inline bool hasLagrangianAlone(const System& system) {
-    return untaken(Takes::only<Mechanical>(), system.parts).empty();
+    return isTaken(Takes::only<Mechanical>(), system.parts);
 }
 inline bool isMechanical(const System& system) { return kindOf<Mechanical>(system) != nullptr; }
 inline bool isBody(const System& system) { return kindOf<Body>(system) != nullptr; }
@@ -325,7 +325,7 @@ const ModelEntry* findModel(std::string_view id);
 /// needs, and has nothing against it besides.
 template <class Entry>
 bool appliesTo(const Entry& entry, const System& system) {
-    return untaken(entry.takes, system.parts).empty() && (!entry.suits || entry.suits(system));
+    return isTaken(entry.takes, system.parts) && (!entry.suits || entry.suits(system));
 }
 
 }  // namespace extremal

@@ -186,8 +186,9 @@ private slots:
         const QString page = fileText("resources/handbook/extending.md");
         for (const char* name : {"quartic_oscillator", "trigonometric", "boole", "galerkin_fine", "virial",
                                  "virial_view", "line/family"}) {
-            const QString code = fileText(QStringLiteral("tests/examples/%1.cpp").arg(name));
-            QVERIFY(!code.isEmpty());
+            QString code = fileText(QStringLiteral("tests/examples/%1.cpp").arg(name));
+            QVERIFY(code.startsWith("// SPDX"));
+            code.remove(0, code.indexOf('\n') + 1);
             QVERIFY2(page.contains("```cpp\n" + code + "```"), name);
         }
     }

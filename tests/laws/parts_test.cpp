@@ -156,6 +156,8 @@ private slots:
         QCOMPARE(untaken(Takes::only<Wave>(), parts), std::string("a wind"));
         QCOMPARE(untaken(Takes::only<Body>(), parts), std::string("a wave function and a wind"));
         QCOMPARE(untaken(Takes::everything(), parts), std::string());
+        QVERIFY(isTaken(Takes::everything(), {}) && !isTaken(Takes::only<Wave>(), {}));
+        QCOMPARE(neededInstead(Takes::only<Wave>(), {}), std::string("a wave function"));
         QCOMPARE(neededInstead(Takes::only<Body>(), parts), std::string("a rigid body"));
         QCOMPARE(neededInstead(Takes::only<Wave>(), parts), std::string("a problem without a wind"));
         const Parts copy = parts;

@@ -155,11 +155,11 @@ private slots:
         QTest::newRow("point") << R"({"view": "section", "starts": [[1]]})"
                                << "must be a point [x, y] of the plot, got 1 numbers";
         QTest::newRow("momentum") << R"({"view": "section", "at": "p.x", "starts": [[1, 2]]})"
-                                  << "need a section of a coordinate, and p.x is none";
+                                  << "need a section of a coordinate, and p.x is not one";
         QTest::newRow("axis") << R"({"view": "section", "at": "q.x", "x": "p.x", "starts": [[1, 2]]})"
                               << "need other axes than q.x and its momentum";
         QTest::newRow("time") << R"({"view": "phase", "x": "t", "starts": [[1, 2]]})"
-                              << "need state columns along both axes, and t is none";
+                              << "need state columns along both axes, and t is not one";
         QTest::newRow("where") << R"({"view": "phase", "spread": 10})"
                                << "needs to know where";
         QTest::newRow("many") << R"({"view": "section", "spread": 3000})"
