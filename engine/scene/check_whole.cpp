@@ -148,7 +148,14 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
         seconds = timeSpan(scene.scene).length() / scheme.spec.step.value * longestTrial * 1e-9;
         isBound = true;
     }
-    if (seconds > longest)
+    constexpr double lifetime = 3e9;
+    if (seconds > lifetime && scheme.isAdaptive())
+        reader.warning(
+            pointer,
+            "its first steps are so short that they lead nowhere: the motion may end at its start, "
+            "or be held there by forces that jump",
+            "another start, or another formula", {}, "duration");
+    else if (seconds > longest)
         reader.warning(pointer,
                        isBound ? "will take more than " + durationText(seconds) + " of computing"
                                : "will take about " + durationText(seconds) +
