@@ -3,8 +3,8 @@
 ///
 /// A part that binds the motion (a Lagrangian, a force, a constraint) belongs to its equations: whoever
 /// leaves it out computes another problem, and does so plausibly. So the needs of a problem are the binding
-/// parts that it has, derived and never stated twice, and nobody is given a problem of which they do not take
-/// every one. A part that nobody thought of is refused by everybody. Other parts (an exact solution, a
+/// parts that it has, derived and never stated twice, and a problem is refused where one of its needs is not
+/// taken. A part that a method has not been told of is refused by default. Other parts (an exact solution, a
 /// picture) may be used or left alone.
 #pragma once
 

@@ -205,7 +205,9 @@ std::vector<Scene> everyGround() {
     }
     for (const Preset* preset : onePerModel()) {
         const Scene scene = readScene(preset->json).scene;
-        const auto kind = makeSystem(scene).parts.needs();
+        const System system = makeSystem(scene);
+        if (!system.isMotion()) continue;  // the one above is enough
+        const auto kind = system.parts.needs();
         if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) continue;
         kinds.push_back(kind);
         scenes.push_back(scene);

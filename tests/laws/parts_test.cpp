@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What is not taken is refused: every model with one more part, of which nobody has heard, is refused by
-/// every family, baseline, observable and view but those that look at rows alone, and the reason is that
-/// part.
+/// What is not taken is refused: every model with one more part, which is unknown to all, is refused by every
+/// family, baseline, observable and view but those that look at rows alone, and the reason is that part.
 #include <QTest>
 
 #include <set>
@@ -23,7 +22,7 @@ namespace {
 struct Wind {
     static constexpr PartInfo part{"wind", "a wind"};
 };
-/// What nobody need know.
+/// A part that may be left alone.
 struct Label {
     static constexpr PartInfo part{"label", "a label", false};
 };

@@ -41,6 +41,7 @@ endif()
 
 # The handbook shows the example as it is here.
 file(READ ${ROOT}/tests/library/example.cpp example)
+string(REGEX REPLACE "^// SPDX[^\n]*\n" "" example "${example}")
 file(READ ${ROOT}/resources/handbook/library.md page)
 string(FIND "${page}" "${example}" place)
 if(place EQUAL -1)
@@ -64,7 +65,7 @@ if(NOT picture MATCHES "^<svg.*<path.*</svg>")
 endif()
 
 # Another minor version is another interface.
-file(WRITE ${OUT}/newer/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(newer CXX)\nfind_package(Extremal 0.2 REQUIRED)\n")
+file(WRITE ${OUT}/newer/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(newer CXX)\nfind_package(Extremal 0.3 REQUIRED)\n")
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${OUT}/newer -B ${OUT}/newer/build -DCMAKE_PREFIX_PATH=${OUT}/prefix
     RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE error)
 if(status EQUAL 0 OR NOT error MATCHES "0\\.2")

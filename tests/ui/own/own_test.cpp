@@ -307,7 +307,7 @@ private slots:
             QVERIFY(all.text().find(writeCompactJson(parseJson(kept)).substr(1, 12)) != std::string::npos);
         QVERIFY(problemOf([&] { all.add("another", parseJson(fitted)); }).contains("is taken already"));
         QVERIFY(problemOf([&] { all.add(" ", parseJson(fitted)); }).contains("is empty"));
-        QVERIFY(problemOf([] { (void)OwnSchemes::parse("[1]"); }).contains("no catalogue"));
+        QVERIFY(problemOf([] { (void)OwnSchemes::parse("[1]"); }).contains("not a catalogue"));
 
         write(file(), "no JSON");
         QVERIFY(problemOf([&] { (void)OwnSchemes::load(ownSchemesFile()); }).contains(file()));
