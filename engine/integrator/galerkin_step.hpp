@@ -19,7 +19,8 @@
 /// (node_iteration.hpp). Both go on to round-off, so that symplecticity and momentum maps hold to round-off.
 /// Newton's starting guess: the previous curve continued, and where that fails or is missing a Taylor step;
 /// where coordinates have spaces of their own, and a Taylor step fails too, the motion itself in small
-/// explicit steps.
+/// explicit steps. Where all of these fail at an edge of the domain of L, the root of a short step is
+/// followed to the whole one (solve/step_continuation.hpp).
 ///
 /// A root that was not near its starting value is accepted only if its curve follows the forces
 /// (force_defect.hpp). If not, Newton's method starts again, from a Taylor step and from the motion itself in
@@ -199,6 +200,7 @@ private:
     Attempt iterate(const T& t, StartingValue start, const std::stop_token& stop);
     Attempt newton(const T& t, StartingValue start, const std::stop_token& stop);
     Attempt fromElsewhere(const T& t, const std::stop_token& stop);
+    Attempt fromShorterSteps(const T& t, const std::stop_token& stop);
     Attempt anyRoot(const T& t, const std::stop_token& stop);
     void rememberNodes();
     Attempt fixedPoint(const T& t, const std::stop_token& stop);
@@ -239,6 +241,7 @@ private:
     bool continues_ = true;     ///< so can those of all steps of its tables
     /// Where it applies; else Newton's method alone.
     std::variant<std::monostate, NodeIteration<T>, VelocityIteration<T>> fixedPointSolver_;
+    bool hasLeftDomain_ = false;            ///< Newton's method did, in this step: L has an edge nearby
     bool isSolvedByFixedPoint_ = false;     ///< it solved the last step
     std::optional<ForceDefect<T>> defect_;  ///< not of oscillatory functions
     T nearness_ = T(0);                     ///< first correction of the last iteration

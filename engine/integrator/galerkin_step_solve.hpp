@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "engine/integrator/galerkin_step.hpp"
+#include "engine/solve/step_continuation.hpp"
 
 namespace extremal {
 
@@ -194,6 +195,7 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Sta
         evaluateGradients(t);
         residual();
         if (iteration > 0 && !R_.allFinite()) {
+            hasLeftDomain_ = true;
             if (!retreat(t)) return Attempt::notFinite;
             // A correction that was cut short says nothing of how the next ones should shrink.
             policy = NewtonPolicy<T>(limits);
@@ -273,12 +275,17 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const
     /// A root this far from its starting value, against the increments of the step, may be another one than
     /// that of the motion.
     constexpr double far = 0.25;
+    hasLeftDomain_ = false;
     Attempt result = anyRoot(t, stop);
     // A parabola may leave the domain of L, such as velocities below that of light; and with spaces of their
     // own some coordinates have many periods in a step, which no parabola follows.
-    const bool hasLeftDomain = result == Attempt::notFinite || result == Attempt::singular,
-               hasNoRoot = hasLeftDomain || (result == Attempt::failed && tables_.size() > 1);
+    const bool isOutside = result == Attempt::notFinite || result == Attempt::singular,
+               hasNoRoot = isOutside || (result == Attempt::failed && tables_.size() > 1);
     if (hasNoRoot && defect_ && startFromMotion(t)) result = iterate(t, StartingValue::fallback, stop);
+    if (result != Attempt::solved && result != Attempt::stopped && defect_ && (isOutside || hasLeftDomain_)) {
+        const Attempt followed = fromShorterSteps(t, stop);
+        return followed == Attempt::solved || followed == Attempt::stopped ? followed : result;
+    }
     if (result != Attempt::solved || !defect_ || !(nearness_ > T(far)) || followsForces(t)) return result;
     return fromElsewhere(t, stop);
 }
@@ -306,6 +313,25 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fromElsewhere(const T& 
     result = iterate(t, StartingValue::fallback, stop);
     if (result == Attempt::stopped || (result == Attempt::solved && followsForces(t))) return result;
     return Attempt::lost;
+}
+
+/// The root of short steps, followed to the whole one (solve/step_continuation.hpp).
+template <class T, int D>
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fromShorterSteps(const T& t,
+                                                                          const std::stop_token& stop) {
+    const T whole = h_, scale = kineticScale_;
+    isSolvedByFixedPoint_ = false;
+    const bool hasArrived = StepContinuation<T>().follow(Y_, [&](const T& part, bool isFresh) {
+        setStep(part * whole);
+        return !stop.stop_requested() && (!isFresh || startFrom(t, StartingValue::fallback)) &&
+               iterate(t, StartingValue::fallback, stop) == Attempt::solved;
+    });
+    setStep(whole);
+    kineticScale_ = scale;  // to the last bit
+    if (stop.stop_requested()) return Attempt::stopped;
+    if (!hasArrived || !followsForces(t)) return Attempt::failed;
+    rememberNodes();
+    return Attempt::solved;
 }
 
 template <class T, int D>

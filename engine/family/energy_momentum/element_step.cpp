@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/solve/step_continuation.hpp"
+
 namespace extremal {
 
 ElementStep::ElementStep(Mechanics<double> mechanics, Table<double> table, const SolverPolicy& policy)
@@ -80,6 +82,7 @@ Outcome ElementStep::newton(double t, double h, const std::stop_token& stop, Ste
     for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
         if (stop.stop_requested()) return Outcome::stopped;
         if (!evaluate(t, h, report)) {
+            hasLeftDomain_ = true;
             if (iteration == 0 || !retreat(t, h, report)) return Outcome::notFinite;
             policy = NewtonPolicy<double>(limits);  // the last correction was cut short
         }
@@ -125,12 +128,21 @@ Outcome ElementStep::newton(double t, double h, const std::stop_token& stop, Ste
 Outcome ElementStep::solve(double t, double h, const std::stop_token& stop, StepReport& report) {
     if (isSolved_ && h == h_) return Outcome::converged;
     Outcome outcome = Outcome::diverged;
+    hasLeftDomain_ = false;
     if (isSolved_) {
         Y_ += (h - h_) * byStep_;
         outcome = newton(t, h, stop, report);
     }
     if (outcome != Outcome::converged && outcome != Outcome::stopped)
         outcome = startAfresh(t, h) ? newton(t, h, stop, report) : Outcome::singular;
+    if (outcome != Outcome::converged && outcome != Outcome::stopped && hasLeftDomain_) {
+        const bool hasArrived = StepContinuation<double>().follow(Y_, [&](double part, bool isFresh) {
+            return !stop.stop_requested() && (!isFresh || startAfresh(t, part * h)) &&
+                   newton(t, part * h, stop, report) == Outcome::converged;
+        });
+        if (hasArrived) outcome = Outcome::converged;
+        if (stop.stop_requested()) outcome = Outcome::stopped;
+    }
     h_ = h;
     isSolved_ = outcome == Outcome::converged;
     if (isSolved_) followStep();

@@ -11,7 +11,9 @@
 ///     dE_d/dh = -d2S/dh2 - (d2S/dY dh) . dY/dh,    J dY/dh = -dR/dh,
 /// with J and R the Jacobian and the left-hand sides above. The solution for one h, carried on by dY/dh, is
 /// the starting value for the next; the first starts from q_0 + h v_0. What a previous step was is of no use
-/// here (extrapolating it saved no iteration), so that steps depend on nothing but their start.
+/// here (extrapolating it saved no iteration), so that steps depend on nothing but their start. Where
+/// Newton's method fails at an edge of the domain of L, the root of a short step is followed to the whole one
+/// (solve/step_continuation.hpp).
 ///
 /// Index roles: unknown a of coordinate k at a d + k. All buffers are allocated in the constructor. Source:
 /// Leok 2004, sec. 5, with the corrected sign: E_d of consecutive elements is equal.
@@ -81,7 +83,8 @@ private:
     Vector z_, Y_, byStep_, residual_;  ///< z = (q_0, Y); byStep: dY/dh
     Vector p0_, velocity_, masses_, gradient_, hessian_;
     double h_ = 0, energyByStep_ = 0;
-    bool isSolved_ = false;  ///< Y_ belongs to h_ and to this start
+    bool isSolved_ = false;       ///< Y_ belongs to h_ and to this start
+    bool hasLeftDomain_ = false;  ///< Newton's method did: L has an edge nearby
 };
 
 }  // namespace extremal
