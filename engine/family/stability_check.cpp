@@ -132,7 +132,10 @@ LinearStabilityFacts factsOf(OscillatorStep step) {
 
 OscillatorStep tableStep(const Discretization& discretization) {
     const auto& [space, quadrature, solver] = discretization;
-    if (const Family* const family = familyOf(space); family && family->tableau) try {
+    // A tableau has a row and a column for each node, the action for each unknown of the step.
+    constexpr int mostStages = 100;
+    const bool isTall = hasTable(discretization) && tableOf(space, quadrature).nodes() > mostStages;
+    if (const Family* const family = familyOf(space); family && family->tableau && !isTall) try {
             return OscillatorStep(family->tableau(discretization, 1));
         } catch (const InvalidScene&) {
             // The step is not a Runge-Kutta method.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/core/dense.hpp"
+#include "engine/core/work.hpp"
 
 namespace extremal {
 namespace {
@@ -86,7 +87,10 @@ OscillatorStep::OscillatorStep(const OscillatorAction& action)
     : stiffness_(action.stiffness.cast<Quad>()), mass_(action.mass.cast<Quad>()) {}
 
 OscillatorStep::OscillatorStep(std::shared_ptr<const Tableau> tableau)
-    : tableau_(std::move(tableau)), forth_(tableau_->A * tableau_->Ahat) {}
+    : tableau_(std::move(tableau)), forth_(tableau_->A * tableau_->Ahat) {
+    const auto stages = static_cast<double>(forth_.rows());
+    work::spend(work::quadruple * stages * stages * stages);
+}
 
 OscillatorStep OscillatorStep::composed(std::vector<double> parts) const {
     OscillatorStep whole = *this;
