@@ -8,6 +8,7 @@
 #include "engine/model/system.hpp"
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
+#include "engine/model/typed/typed_parts.hpp"
 #include "engine/model/typed/typed_picture.hpp"
 #include "engine/model/typed/typeset.hpp"
 
@@ -22,7 +23,10 @@ System makeLagrangian(const Settings& settings) {
     for (const std::string& name : formula.coordinates)
         s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
     s.parts.set(std::move(made.mechanics));
+    if (auto constraint = typed::constraintOf(settings, formula)) s.parts.set(*std::move(constraint));
+    if (auto force = typed::forceOf(settings, formula)) s.parts.set(*std::move(force));
     for (const int i : made.cyclic) {
+        if (!typed::isUntouched(settings, formula, i)) continue;
         const auto k = static_cast<std::size_t>(i);
         s.momenta.push_back({formula.coordinates[k], "p_" + typed::symbolOf(formula.coordinates[k]), "",
                              [k](const double*, const double* p) { return p[k]; }});
@@ -61,7 +65,22 @@ std::vector<FieldInfo> lagrangianFields() {
     lagrangian.type = FieldType::terms;
     lagrangian.title = "Lagrangian";
     lagrangian.example = "m/2*l^2*theta_t^2 + m*g*l*cos(theta)";
-    return {coordinates, parameters, lagrangian};
+    FieldInfo constraints =
+        textField("constraints", "", nullptr,
+                  "Relations of coordinates and t that hold at all times, by name: each formula is 0 "
+                  "(\"x^2+y^2-l^2\").");
+    constraints.type = FieldType::terms;
+    constraints.isOptional = true;
+    FieldInfo forces = textField(
+        "forces", "", nullptr,
+        "Forces that no Lagrangian has, by coordinate, as formulas in coordinates, velocities and t.");
+    forces.type = FieldType::terms;
+    forces.isOptional = true;
+    FieldInfo dissipation =
+        textField("dissipation", "", nullptr,
+                  "Rayleigh's function D, a formula in velocities (\"c/2*x_t^2\"): adds the force -dD/dv.");
+    dissipation.isOptional = true;
+    return {coordinates, parameters, lagrangian, constraints, forces, dissipation};
 }
 
 }  // namespace

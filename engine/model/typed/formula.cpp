@@ -22,7 +22,7 @@ public:
             symbols_[formula.coordinates[place(i)]] = i;
             symbols_[formula.coordinates[place(i)] + "_t"] = d + i;
         }
-        symbols_["t"] = formula.time();
+        symbols_.emplace("t", formula.time());  // or a coordinate, for derivatives by it
         for (std::size_t k = 0; k < formula.parameters.size(); ++k)
             symbols_[formula.parameters[k].first] = formula.firstParameter() + static_cast<int>(k);
     }

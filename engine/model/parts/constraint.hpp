@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Holonomic constraints g(t, q) = 0, as a part of a mechanical system (x = (q, p)).
+///
+/// With multipliers lambda the motion is d/dt L_v = L_q + g_q^T lambda, g = 0, and so g_q v + g_t = 0 as
+/// well. Index roles: constraint k = 0..count-1, coordinate i = 0..d-1; matrices row by row. Units are those
+/// of the user's formulas: lambda_k has that of L over that of g_k.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/model/parts.hpp"
+
+namespace extremal {
+
+struct Constraint {
+    static constexpr PartInfo part{"constraint", "a constraint"};
+
+    std::vector<std::string> names;     ///< "rod": one for each constraint
+    std::shared_ptr<const void> model;  ///< first argument of the calls
+    bool isTimeDependent = false;
+
+    int count() const { return static_cast<int>(names.size()); }
+
+    /// g (count), g_q (count x d) and g_t (count).
+    void (*first)(const void*, double t, const double* q, double* g, double* byPlace,
+                  double* byTime) = nullptr;
+    /// Adds sum_k lambda_k d2 g_k / dq dq to a d x d matrix.
+    void (*addCurvature)(const void*, double t, const double* q, const double* lambda,
+                         double* matrix) = nullptr;
+    /// v^T g_qq v + 2 g_qt v + g_tt (count): what g_q a has to cancel.
+    void (*rates)(const void*, double t, const double* q, const double* v, double* rates) = nullptr;
+};
+
+}  // namespace extremal

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/model/typed/typed_parts.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/model/typed/symbolic.hpp"
+#include "engine/model/typed/tape.hpp"
+
+namespace extremal::typed {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The names with time as one more coordinate, so that derivatives by it are found as those by the others.
+/// Symbols: q_i: i,  t: d,  v_i: d + 1 + i,  the rate of t: 2d + 1.
+Formula withTime(const Formula& formula, const std::string& text) {
+    Formula own = formula;
+    own.terms.clear();
+    own.coordinates.push_back("t");
+    own.text = text;
+    return own;
+}
+
+/// Roots of several formulas in one graph, with numbers in place of parameters.
+class Roots {
+public:
+    explicit Roots(const Formula& withTime) : formula_(withTime) {}
+
+    /// The nodes of a graph here.
+    std::vector<int> adopt(const Graph& from, const std::vector<int>& nodes) {
+        return graph_.adopt(from, nodes, [&](int symbol) -> std::optional<double> {
+            const int k = symbol - formula_.firstParameter();
+            if (k < 0) return {};
+            return formula_.parameters[at(k)].second;
+        });
+    }
+    Graph& graph() { return graph_; }
+    Tape tape(const std::vector<int>& roots) const {
+        return Tape::of(graph_, roots, 2 * formula_.dimension());
+    }
+
+private:
+    const Formula& formula_;
+    Graph graph_;
+};
+
+/// Registers of one evaluation: on the stack, or for long formulas an array of the thread.
+class Run {
+public:
+    Run(const Tape& tape, int d, double t, const double* q, const double* v) : tape_(tape) {
+        thread_local std::vector<double> large;
+        if (tape.registers() > std::size(small_)) {
+            if (large.size() < tape.registers()) large.resize(tape.registers());
+            r_ = large.data();
+        }
+        std::copy_n(q, d, r_);
+        r_[d] = t;
+        if (v)
+            std::copy_n(v, d, r_ + d + 1);
+        else
+            std::fill_n(r_ + d + 1, d, 0.0);
+        r_[2 * d + 1] = 1;
+        tape.run(r_);
+    }
+    double operator[](std::size_t output) const { return tape_.output(output, r_); }
+
+private:
+    const Tape& tape_;
+    double small_[192];
+    double* r_ = small_;
+};
+
+/// differentiate() with what is wrong as a problem of the scene.
+std::shared_ptr<const SymbolicLagrangian> derivatives(const Formula& formula, const std::string& pointer) {
+    try {
+        return differentiate(formula);
+    } catch (const ExpressionError& e) {
+        throw InvalidScene(pointer, std::string(e.what()) + "\n" + caretLines(formula.text, e.position),
+                           e.hint);
+    }
+}
+
+/// The derivatives of constraints that are not 0 everywhere.
+struct ConstraintModel {
+    int d = 0, count = 0;
+    Tape value, second;
+    struct Second {
+        int constraint, i, j;  ///< j <= i; d stands for time
+        std::size_t output;
+    };
+    std::vector<Second> entries;
+};
+const ConstraintModel& constraintModel(const void* p) { return *static_cast<const ConstraintModel*>(p); }
+
+void first(const void* p, double t, const double* q, double* g, double* byPlace, double* byTime) {
+    const ConstraintModel& m = constraintModel(p);
+    const Run r(m.value, m.d, t, q, nullptr);
+    std::size_t next = 0;
+    for (int k = 0; k < m.count; ++k) {
+        g[k] = r[next++];
+        for (int i = 0; i < m.d; ++i) byPlace[k * m.d + i] = r[next++];
+        byTime[k] = r[next++];
+    }
+}
+
+void addCurvature(const void* p, double t, const double* q, const double* lambda, double* matrix) {
+    const ConstraintModel& m = constraintModel(p);
+    const Run r(m.second, m.d, t, q, nullptr);
+    for (const ConstraintModel::Second& e : m.entries) {
+        if (e.i == m.d) continue;
+        const double value = lambda[e.constraint] * r[e.output];
+        matrix[e.i * m.d + e.j] += value;
+        if (e.i != e.j) matrix[e.j * m.d + e.i] += value;
+    }
+}
+
+void rates(const void* p, double t, const double* q, const double* v, double* rates) {
+    const ConstraintModel& m = constraintModel(p);
+    const Run r(m.second, m.d, t, q, nullptr);
+    std::fill_n(rates, m.count, 0.0);
+    const auto speed = [&](int i) { return i == m.d ? 1.0 : v[i]; };
+    for (const ConstraintModel::Second& e : m.entries)
+        rates[e.constraint] += (e.i == e.j ? 1 : 2) * speed(e.i) * speed(e.j) * r[e.output];
+}
+
+struct ForceModel {
+    int d = 0;
+    Tape value, first;
+    struct Entry {
+        int i, j;  ///< force i by q_j, or by v_(j - d)
+        std::size_t output;
+    };
+    std::vector<Entry> entries;
+};
+const ForceModel& forceModel(const void* p) { return *static_cast<const ForceModel*>(p); }
+
+void force(const void* p, double t, const double* q, const double* v, double* f) {
+    const ForceModel& m = forceModel(p);
+    const Run r(m.value, m.d, t, q, v);
+    for (int i = 0; i < m.d; ++i) f[i] = r[at(i)];
+}
+
+void firstOfForce(const void* p, double t, const double* q, const double* v, double* f, double* derivatives) {
+    const ForceModel& m = forceModel(p);
+    const Run r(m.first, m.d, t, q, v);
+    for (int i = 0; i < m.d; ++i) f[i] = r[at(i)];
+    std::fill_n(derivatives, 2 * m.d * m.d, 0.0);
+    for (const ForceModel::Entry& e : m.entries) derivatives[e.i * 2 * m.d + e.j] = r[e.output];
+}
+
+const Value::Object& objectOf(const Settings& settings, const char* key) {
+    static const Value::Object empty;
+    const Value* const value = settings.find(key);
+    if (value && value->isString() && !value->asString().empty())
+        throw InvalidScene(std::string("/") + key, "needs a name for each formula",
+                           std::string("{\"") + (std::string_view(key) == "forces" ? "x" : "rod") + "\": \"" +
+                               value->asString() + "\"}");
+    return value && value->isObject() ? value->asObject() : empty;
+}
+
+/// Time has no rate among the names.
+void requireNoRateOfTime(const Formula& own, const std::string& pointer) {
+    const ResolvedFormula resolved = resolve(own);
+    for (std::size_t n = 0; n < resolved.symbol.size(); ++n)
+        if (resolved.symbol[n] == 2 * own.dimension() - 1)
+            throw InvalidScene(pointer, "has an unknown name \"t_t\"\n" +
+                                            caretLines(own.text, resolved.expression.nodes[n].position));
+}
+
+/// What is in the way of a formula that has velocities where none belong.
+void requireNoVelocities(const Formula& own, const std::string& name, const std::string& pointer) {
+    const ResolvedFormula resolved = resolve(own);
+    for (std::size_t n = 0; n < resolved.symbol.size(); ++n) {
+        const int symbol = resolved.symbol[n], d = own.dimension();
+        if (symbol < d || symbol >= 2 * d) continue;
+        throw InvalidScene(
+            pointer, "has a velocity in it\n" + caretLines(own.text, resolved.expression.nodes[n].position),
+            "a constraint is a relation of places and time: write what " + name + " says without velocities");
+    }
+}
+
+/// The force on each coordinate as a node of `roots`, with its derivatives.
+struct ForceNodes {
+    std::vector<int> value;                    ///< by coordinate
+    std::vector<std::vector<int>> derivative;  ///< by q_0.., v_0.. of each
+};
+
+void addForces(const Settings& settings, const Formula& formula, Roots& roots, ForceNodes& all) {
+    const int d = formula.dimension();
+    Graph& graph = roots.graph();
+    const auto add = [&](int& to, int node, double factor) { to = graph.sum(0, {{to, 1}, {node, factor}}); };
+    for (const auto& [name, text] : objectOf(settings, "forces")) {
+        const std::string pointer = "/forces/" + name;
+        const auto found = std::find(formula.coordinates.begin(), formula.coordinates.end(), name);
+        if (found == formula.coordinates.end())
+            throw InvalidScene(pointer, "there is no coordinate \"" + name + "\" for a force to act on",
+                               suggestName(name, formula.coordinates));
+        const auto i = at(static_cast<int>(found - formula.coordinates.begin()));
+        const Formula own = withTime(formula, text.asString());
+        const auto symbolic = derivatives(own, pointer);
+        requireNoRateOfTime(own, pointer);
+        std::vector<int> nodes{symbolic->value};
+        nodes.insert(nodes.end(), symbolic->gradient.begin(), symbolic->gradient.end());
+        const std::vector<int> here = roots.adopt(symbolic->graph, nodes);
+        add(all.value[i], here[0], 1);
+        for (int j = 0; j < d; ++j) {
+            add(all.derivative[i][at(j)], here[at(1 + j)], 1);
+            add(all.derivative[i][at(d + j)], here[at(1 + d + 1 + j)], 1);
+        }
+    }
+    const Value* const dissipation = settings.find("dissipation");
+    if (!dissipation || !dissipation->isString() || dissipation->asString().empty()) return;
+    const Formula own = withTime(formula, dissipation->asString());
+    const auto symbolic = derivatives(own, "/dissipation");
+    requireNoRateOfTime(own, "/dissipation");
+    const auto second = [&](int i, int j) {
+        return symbolic->hessian[at(i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i)];
+    };
+    for (int i = 0; i < d; ++i) {
+        const int v = d + 1 + i;
+        std::vector<int> nodes{symbolic->gradient[at(v)]};
+        for (int j = 0; j < d; ++j) nodes.push_back(second(v, j));
+        for (int j = 0; j < d; ++j) nodes.push_back(second(v, d + 1 + j));
+        const std::vector<int> here = roots.adopt(symbolic->graph, nodes);
+        add(all.value[at(i)], here[0], -1);
+        for (int j = 0; j < 2 * d; ++j) add(all.derivative[at(i)][at(j)], here[at(1 + j)], -1);
+    }
+}
+
+bool hasForces(const Settings& settings) {
+    const Value* const dissipation = settings.find("dissipation");
+    return !objectOf(settings, "forces").empty() ||
+           (dissipation && dissipation->isString() && !dissipation->asString().empty());
+}
+
+}  // namespace
+
+std::optional<Constraint> constraintOf(const Settings& settings, const Formula& formula) {
+    const Value::Object& typed = objectOf(settings, "constraints");
+    if (typed.empty()) return {};
+    const int d = formula.dimension();
+    const Formula names = withTime(formula, "");
+    Roots roots(names);
+    auto model = std::make_shared<ConstraintModel>();
+    model->d = d;
+    Constraint made;
+    std::vector<int> values, seconds;
+    for (const auto& [name, text] : typed) {
+        const std::string pointer = "/constraints/" + name;
+        if (const std::string problem = nameProblem(name); !problem.empty())
+            throw InvalidScene(pointer, "the name \"" + name + "\" " + problem);
+        const Formula own = withTime(formula, text.asString());
+        const auto symbolic = derivatives(own, pointer);
+        requireNoVelocities(own, name, pointer);
+        std::vector<int> nodes{symbolic->value};
+        nodes.insert(nodes.end(), symbolic->gradient.begin(), symbolic->gradient.begin() + d + 1);
+        const std::vector<int> here = roots.adopt(symbolic->graph, nodes);
+        if (std::all_of(here.begin() + 1, here.begin() + 1 + d,
+                        [&](int node) { return roots.graph().isZero(node); }))
+            throw InvalidScene(pointer, "no coordinate is in it, so that it constrains nothing");
+        values.insert(values.end(), here.begin(), here.end());
+        const std::vector<int> hessian(symbolic->hessian.begin(),
+                                       symbolic->hessian.begin() + (d + 1) * (d + 2) / 2);
+        const std::vector<int> curved = roots.adopt(symbolic->graph, hessian);
+        std::size_t next = 0;
+        for (int i = 0; i <= d; ++i)
+            for (int j = 0; j <= i; ++j, ++next) {
+                if (roots.graph().isZero(curved[next])) continue;
+                model->entries.push_back({model->count, i, j, seconds.size()});
+                seconds.push_back(curved[next]);
+            }
+        made.isTimeDependent =
+            made.isTimeDependent ||
+            roots.graph().dependsOn({here.front()}, [d](int symbol) { return symbol == d; });
+        made.names.push_back(name);
+        ++model->count;
+    }
+    model->value = roots.tape(values);
+    model->second = roots.tape(seconds);
+    made.model = std::move(model);
+    made.first = first;
+    made.addCurvature = addCurvature;
+    made.rates = rates;
+    return made;
+}
+
+std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
+    if (!hasForces(settings)) return {};
+    const int d = formula.dimension();
+    const Formula names = withTime(formula, "");
+    Roots roots(names);
+    const int zero = roots.graph().number(0);
+    ForceNodes nodes{std::vector<int>(at(d), zero),
+                     std::vector<std::vector<int>>(at(d), std::vector<int>(at(2 * d), zero))};
+    addForces(settings, formula, roots, nodes);
+    auto model = std::make_shared<ForceModel>();
+    model->d = d;
+    std::vector<int> all = nodes.value;
+    for (int i = 0; i < d; ++i)
+        for (int j = 0; j < 2 * d; ++j) {
+            const int node = nodes.derivative[at(i)][at(j)];
+            if (roots.graph().isZero(node)) continue;
+            model->entries.push_back({i, j, all.size()});
+            all.push_back(node);
+        }
+    model->value = roots.tape(nodes.value);
+    model->first = roots.tape(all);
+    Force made;
+    made.isTimeDependent = roots.graph().dependsOn(nodes.value, [d](int symbol) { return symbol == d; });
+    made.model = std::move(model);
+    made.value = force;
+    made.first = firstOfForce;
+    return made;
+}
+
+bool isUntouched(const Settings& settings, const Formula& formula, int coordinate) {
+    const std::string& name = formula.coordinates[at(coordinate)];
+    const Value* const dissipation = settings.find("dissipation");
+    std::vector<std::pair<std::string, bool>> texts;  // and whether a place in it is all that matters
+    for (const auto& [key, text] : objectOf(settings, "constraints"))
+        texts.push_back({text.asString(), true});
+    if (dissipation && dissipation->isString()) texts.push_back({dissipation->asString(), false});
+    for (const auto& [key, text] : objectOf(settings, "forces"))
+        if (key == name) return false;
+    for (const auto& [text, isOfPlaces] : texts) {
+        if (text.empty()) continue;
+        const Formula own = withTime(formula, text);
+        const ResolvedFormula resolved = resolve(own);
+        const int symbol = isOfPlaces ? coordinate : own.dimension() + coordinate;
+        if (std::find(resolved.symbol.begin(), resolved.symbol.end(), symbol) != resolved.symbol.end())
+            return false;
+    }
+    return true;
+}
+
+}  // namespace extremal::typed

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Constraints and forces as a user types them beside a Lagrangian.
+///
+/// Keys of "model": `constraints`, an object of formulas g by name in coordinates, parameters and t (g = 0);
+/// `forces`, an object of formulas by coordinate, in velocities as well; `dissipation`, Rayleigh's function
+/// D, whose force is -dD/dv. Errors: InvalidScene with pointers below /model and a caret under the place.
+#pragma once
+
+#include <optional>
+
+#include "engine/core/settings.hpp"
+#include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/force.hpp"
+#include "engine/model/typed/formula.hpp"
+
+namespace extremal::typed {
+
+/// Nothing where none is typed. `formula`: the names, as in formulaOf.
+std::optional<Constraint> constraintOf(const Settings& settings, const Formula& formula);
+std::optional<Force> forceOf(const Settings& settings, const Formula& formula);
+
+/// Coordinates that no constraint and no force acts on: whether the momentum of a cyclic one is still kept.
+bool isUntouched(const Settings& settings, const Formula& formula, int coordinate);
+
+}  // namespace extremal::typed
