@@ -6,7 +6,7 @@
 
 namespace extremal {
 
-/// False of Lagrangians and potentials that depend on time.
+/// False of Lagrangians, potentials and constraints that depend on time, and where forces act.
 bool conservesEnergy(const System& system);
 
 }  // namespace extremal

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
+#include "engine/mechanism/mechanism_start.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
@@ -17,7 +18,7 @@ System makeSystem(const Scene& scene) {
     return entry->make(scene.model);
 }
 
-State initialState(const Scene& scene, const System& system) {
+State givenState(const Scene& scene, const System& system) {
     State state;
     state.t = scene.start.value;
     if (system.start) {
@@ -38,6 +39,12 @@ State initialState(const Scene& scene, const System& system) {
         m.gradient(m.model.get(), state.t, state.x.data(), v.data(), gradient.data());
         for (std::size_t i = 0; i < d; ++i) state.x[d + i] = gradient[d + i];
     }
+    return state;
+}
+
+State initialState(const Scene& scene, const System& system) {
+    State state = givenState(scene, system);
+    putOnConstraints(system, state, scene.initial.isProjected);
     return state;
 }
 

@@ -13,6 +13,7 @@
 #include "engine/scene/cost.hpp"
 #include "engine/scene/local_errors.hpp"
 #include "engine/scene/pointer.hpp"
+#include "engine/mechanism/mechanism_start.hpp"
 #include "engine/scene/premise.hpp"
 #include "engine/scene/read_parts.hpp"
 #include "engine/scene/scheme_stability.hpp"
@@ -301,6 +302,10 @@ bool checkStart(Reader& reader, ResolvedScene& scene) {
         prefix = "/model";
         if (entry && entry->checkInitial && reader.errors.empty())
             entry->checkInitial(scene.scene.model, *scene.system, scene.initial);
+        const std::string note =
+            projectionNote(*scene.system, givenState(scene.scene, *scene.system), scene.initial);
+        if (!note.empty())
+            reader.warning("/initial", note, "velocities along the constraints", {}, "mechanisms");
         return true;
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error(prefix + p.pointer, p.message, p.hint);

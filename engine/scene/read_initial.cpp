@@ -95,6 +95,8 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
     }
     if (!reader.isObject(*initial, "/initial")) return;
     reader.checkKeys(*initial, "/initial", format::initial);
+    if (const Value* project = initial->find("project"))
+        result.isProjected = reader.flag(*project, "/initial/project").value_or(false);
     const Value* q = initial->find("q");
     const Value* p = initial->find("p");
     const Value* v = initial->find("v");

@@ -47,6 +47,7 @@ struct Initial {
     Second second = Second::none;
     std::vector<Number> pOrV;  ///< second: momentum, velocity, or the position at a later time
     std::optional<Number> at;  ///< Second::position: how much later
+    bool isProjected = false;  ///< q may be moved onto the constraints of the model, however far
     Settings given;            ///< the keys of ModelEntry::initial; type empty
     bool operator==(const Initial&) const = default;
 };

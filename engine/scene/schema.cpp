@@ -207,6 +207,7 @@ Value initialData() {
     p.set("v", vector);
     p.set("q1", vector);
     p.set("at", reference("number"));
+    p.set("project", typed("boolean", "Whether q may be moved onto the constraints of the model."));
     for (const ModelEntry& entry : modelCatalog())
         for (const FieldInfo& field : entry.initial)
             if (!p.find(field.key)) p.set(field.key, property(field));

@@ -25,6 +25,7 @@ Value initialValue(const Initial& initial) {
     if (initial.second == Initial::Second::velocity) value.set("v", numbersValue(initial.pOrV));
     if (initial.second == Initial::Second::position) value.set("q1", numbersValue(initial.pOrV));
     if (initial.at) value.set("at", numberValue(*initial.at));
+    if (initial.isProjected) value.set("project", true);
     return value;
 }
 

@@ -10,7 +10,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/definitions.cmake)
 
 # A folder may include itself and every folder before it.
 set(levels
-    core mesh group quadrature model symmetry space action tableau solve integrator family baseline trajectory observe view scene run study passport figure inspect
+    core mesh group quadrature model symmetry space action tableau solve integrator mechanism family baseline trajectory observe view scene run study passport figure inspect
     library ui app)
 set(max_lines 500)
 

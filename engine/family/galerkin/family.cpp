@@ -22,6 +22,8 @@
 #include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"
 #include "engine/integrator/condensed.hpp"
+#include "engine/mechanism/mechanism.hpp"
+#include "engine/mechanism/mechanism_step.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/typed.hpp"
 
@@ -153,7 +155,30 @@ void checkGalerkin(const SchemeCase& scheme, Findings& findings) {
     }
 }
 
+/// Constraints and forces have one table, the same for every step.
+std::string mechanismProblem(const Discretization& d, const System& system) {
+    if (!Mechanism::isOne(system.parts)) return {};
+    const std::string what = untaken(Takes::only<Mechanical>(), system.parts);
+    if (galerkin::isSplit(d))
+        return "one space and one rule are needed for " + what +
+               ": rules for terms and spaces for coordinates are for a Lagrangian alone";
+    if (dependsOnStep(d.space))
+        return "functions that change with the step are for a Lagrangian alone, without " + what;
+    return {};
+}
+
+/// Forces act in the variation, not in the action: momenta and symmetry stay, the symplectic form does not.
+Properties describeMechanism(const Discretization& d, const System& system) {
+    Properties p = describeGalerkin(d);
+    std::erase(p.claims.conserves, "quadratic invariants");
+    if (system.parts.find<Force>()) p.claims.isSymplectic = false;
+    return p;
+}
+
 ReferencePlan trusted(const System& system, const State&, double) {
+    if (Mechanism::isOne(system.parts))
+        return referenceBy("Galerkin of degree 6 with 6 Gauss nodes", system,
+                           *namedScheme("galerkin-gauss-6"));
     return referenceBy("Gauss collocation of degree 12", system, *namedScheme("gauss-collocation-12"));
 }
 
@@ -198,6 +223,7 @@ Family galerkin() {
         return rules;
     };
     f.describeOn = [](const Discretization& d, const System& system) -> std::optional<Properties> {
+        if (Mechanism::isOne(system.parts) && !galerkin::isSplit(d)) return describeMechanism(d, system);
         if (!galerkin::isSplit(d)) return {};
         return galerkin::describeSplit(d, system);
     };
@@ -211,7 +237,12 @@ Family galerkin() {
         return galerkin::tableauOf(withStep(d.space, step), d.quadrature);
     };
     f.written = galerkin::written;
+    f.takes = Takes::only<Mechanical, Constraint, Force>();
+    f.mismatch = mechanismProblem;
     f.make = [](const System& system, const Discretization& d, double step) {
+        if (Mechanism::isOne(system.parts))
+            return makeMechanismStep(system.parts, tableOf(d.space, d.quadrature), step,
+                                     solverPolicy(d.solver, system));
         if (galerkin::isSplit(d)) {
             const galerkin::Split split = galerkin::splitOf(system, d);
             std::vector<LagrangianTerm<double>> parts =

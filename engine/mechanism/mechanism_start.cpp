@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/mechanism/mechanism_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/mechanism/mechanism.hpp"
+
+namespace extremal {
+namespace {
+
+/// A change of a coordinate below this is what rounding a typed number makes.
+constexpr double byRounding = 1e-6;
+/// Constraints whose gradients are this close to dependent, in the metric of the mass.
+constexpr double dependent = 1e-6;
+
+std::string placesText(const System& system, const std::vector<double>& q) {
+    std::string text;
+    for (std::size_t i = 0; i < q.size() && i < 6; ++i)
+        text += (i ? ", " : "") + system.coordinates[i].name + " = " + formatNumber(q[i], 9);
+    return text + (q.size() > 6 ? ", ..." : "");
+}
+
+/// The constraint that is missed most, and by how much.
+std::pair<std::string, double> worstMiss(const Constraint& g, double t, const double* q, std::size_t d) {
+    const auto n = static_cast<std::size_t>(g.count());
+    std::vector<double> value(n), byPlace(n * d), byTime(n);
+    g.first(g.model.get(), t, q, value.data(), byPlace.data(), byTime.data());
+    std::size_t worst = 0;
+    for (std::size_t k = 1; k < n; ++k)
+        if (std::abs(value[k]) > std::abs(value[worst])) worst = k;
+    return {g.names[worst], value[worst]};
+}
+
+}  // namespace
+
+void putOnConstraints(const System& system, State& state, bool movesFar) {
+    const Constraint* const g = system.parts.find<Constraint>();
+    if (!g) return;
+    const auto d = static_cast<std::size_t>(system.dimension());
+    if (g->count() >= system.dimension() && !g->isTimeDependent)
+        throw InvalidScene("/model/constraints",
+                           "has " + std::to_string(g->count()) + " constraints for " + std::to_string(d) +
+                               (d == 1 ? " coordinate" : " coordinates") + ", so that nothing can move",
+                           "fewer constraints, or more coordinates");
+    Mechanism mechanism(system.parts);
+    std::vector<double> q(state.x.begin(), state.x.begin() + static_cast<std::ptrdiff_t>(d));
+    const auto [name, miss] = worstMiss(*g, state.t, q.data(), d);
+    if (!std::isfinite(miss))
+        throw InvalidScene("/model/constraints/" + name, "is not finite at the initial data");
+    if (const Mechanism::Rank rank = mechanism.rank(state.t, q.data());
+        !(rank.ratio > dependent) && rank.dependent >= 0)
+        throw InvalidScene(
+            "/model/constraints/" + g->names[static_cast<std::size_t>(rank.dependent)],
+            g->count() == 1
+                ? "has a gradient of 0 at the initial data"
+                : "depends on the other constraints at the initial data: it allows the same motions",
+            g->count() == 1 ? "another start" : "leave it out, or start elsewhere");
+    const bool isFound = mechanism.projectPlace(state.t, q.data());
+    double change = 0;
+    for (std::size_t i = 0; i < d; ++i)
+        change = std::max(change, std::abs(q[i] - state.x[i]) / std::max(1.0, std::abs(q[i])));
+    if (!isFound)
+        throw InvalidScene("/initial/q",
+                           "misses the constraint " + name + " by " + formatNumber(miss, 3) +
+                               ", and no places near it meet all constraints",
+                           "places that do");
+    if (change > byRounding && !movesFar)
+        throw InvalidScene("/initial/q", "misses the constraint " + name + " by " + formatNumber(miss, 3),
+                           "\"project\": true in initial moves it to " + placesText(system, q));
+    std::copy(q.begin(), q.end(), state.x.begin());
+    Eigen::VectorXd v, kappa;
+    if (!mechanism.project(state.t, state.x.data(), state.x.data() + d, v, kappa))
+        throw InvalidScene("/initial", "has momenta that no velocity on the constraints belongs to");
+}
+
+std::string projectionNote(const System& system, const State& given, const State& projected) {
+    if (!system.parts.find<Constraint>()) return {};
+    const auto d = static_cast<std::size_t>(system.dimension());
+    double size = 0, change = 0;
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < d; ++i) {
+        size = std::max(size, std::abs(given.x[d + i]));
+        const double own = std::abs(projected.x[d + i] - given.x[d + i]);
+        if (own > change) {
+            change = own;
+            worst = i;
+        }
+    }
+    if (!(change > byRounding * std::max(1.0, size))) return {};
+    return "has a velocity that the constraints do not allow: p." + system.coordinates[worst].name +
+           " becomes " + formatNumber(projected.x[d + worst], 6) + " in place of " +
+           formatNumber(given.x[d + worst], 6);
+}
+
+}  // namespace extremal

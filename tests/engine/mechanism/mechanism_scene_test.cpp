@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Scenes with constraints and forces: what is refused, where, and with which remedy; and who takes them.
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/resolve.hpp"
+#include "tests/engine/mechanism/mechanisms.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::mechanism_scene_test {
+namespace {
+
+/// A pendulum in x and y whose model and start have these keys besides.
+ReadScene read(const Value::Object& model, const Value::Object& initial = {},
+               const char* scheme = "galerkin-gauss-2") {
+    Value pendulum(Value::Object{{"type", "lagrangian"},
+                                 {"coordinates", Value::Array{"x", "y"}},
+                                 {"parameters", Value::Object{{"l", 1}}},
+                                 {"lagrangian", "(x_t^2+y_t^2)/2 - y"}});
+    for (const auto& [key, value] : model) pendulum.set(key, value);
+    Value start(Value::Object{{"q", Value::Array{0.6, -0.8}}, {"v", Value::Array{0.8, 0.6}}});
+    for (const auto& [key, value] : initial) start.set(key, value);
+    return readScene(Value(
+        Value::Object{{"extremal", 1},
+                      {"model", pendulum},
+                      {"initial", start},
+                      {"time", Value::Object{{"end", 1}}},
+                      {"schemes", Value::Array{Value(Value::Object{{"scheme", scheme}, {"step", 0.1}})}}}));
+}
+const Value::Object rod{{"constraints", Value::Object{{"rod", "x^2+y^2-l^2"}}}};
+
+std::string textOf(const std::vector<Problem>& problems) {
+    std::string all;
+    for (const Problem& p : problems) all += p.pointer + ": " + p.message + " (" + p.hint + ")\n";
+    return all;
+}
+
+}  // namespace
+
+class MechanismSceneTest : public QObject {
+    Q_OBJECT
+private slots:
+    void aPendulumIsRead() {
+        const ReadScene scene = read(rod);
+        QVERIFY2(scene.errors.empty() && scene.warnings.empty(),
+                 (textOf(scene.errors) + textOf(scene.warnings)).c_str());
+        QVERIFY(scene.resolved->system->parts.find<Constraint>());
+    }
+    void whatIsWrongIsSaidWithItsPlace_data() {
+        QTest::addColumn<QString>("key");
+        QTest::addColumn<QString>("name");
+        QTest::addColumn<QString>("formula");
+        QTest::addColumn<QString>("pointer");
+        QTest::addColumn<QString>("words");
+        const auto row = [](const char* what, const char* key, const char* name, const char* formula,
+                            const char* pointer, const char* words) {
+            QTest::newRow(what) << key << name << formula << pointer << words;
+        };
+        row("velocity in a constraint", "constraints", "rod", "x*x_t", "/model/constraints/rod",
+            "has a velocity");
+        row("nothing is constrained", "constraints", "rod", "t-1", "/model/constraints/rod", "no coordinate");
+        row("unknown name", "constraints", "rod", "x+zz", "/model/constraints/rod", "unknown name");
+        row("unknown coordinate", "forces", "u", "-u_t", "/model/forces/u", "no coordinate");
+        row("unknown name in a force", "forces", "x", "-c*x_t", "/model/forces/x", "unknown name");
+        row("rate of time", "forces", "x", "t_t", "/model/forces/x", "unknown name");
+        row("not finite at the start", "constraints", "rod", "log(x-5)", "/model/constraints/rod",
+            "not finite");
+        row("gradient of 0", "constraints", "rod", "(x-0.6)^2+(y+0.8)^2", "/model/constraints/rod",
+            "gradient of 0");
+    }
+    void whatIsWrongIsSaidWithItsPlace() {
+        QFETCH(QString, key);
+        QFETCH(QString, name);
+        QFETCH(QString, formula);
+        QFETCH(QString, pointer);
+        QFETCH(QString, words);
+        const ReadScene scene =
+            read({{key.toStdString(), Value::Object{{name.toStdString(), formula.toStdString()}}}});
+        const std::string said = textOf(scene.errors);
+        QVERIFY2(std::any_of(scene.errors.begin(), scene.errors.end(),
+                             [&](const Problem& p) {
+                                 return p.pointer == pointer.toStdString() &&
+                                        QString::fromStdString(p.message).contains(words);
+                             }),
+                 said.c_str());
+    }
+    void aFormulaWithoutANameIsRefused() {
+        const ReadScene scene = read({{"constraints", "x^2+y^2-1"}});
+        QVERIFY2(textOf(scene.errors).find("needs a name") != std::string::npos,
+                 textOf(scene.errors).c_str());
+    }
+    void aConstraintThatRepeatsAnotherIsNamed() {
+        const ReadScene scene =
+            read({{"coordinates", Value::Array{"x", "y", "z"}},
+                  {"lagrangian", "(x_t^2+y_t^2+z_t^2)/2"},
+                  {"constraints", Value::Object{{"a", "x^2+y^2-1"}, {"b", "2*x^2+2*y^2-2"}}}},
+                 {{"q", Value::Array{0.6, -0.8, 0}}, {"v", Value::Array{0, 0, 1}}});
+        const std::string said = textOf(scene.errors);
+        QVERIFY2(said.find("/model/constraints/b: depends on the other") != std::string::npos, said.c_str());
+    }
+    /// A start that misses the constraint is refused with the place that would do, which then does.
+    void aStartOffTheConstraint() {
+        const ReadScene missed = read(rod, {{"q", Value::Array{0.6, -0.9}}});
+        const std::string said = textOf(missed.errors);
+        QVERIFY2(said.find("/initial/q: misses the constraint rod by 0.17") != std::string::npos,
+                 said.c_str());
+        QVERIFY2(said.find("\"project\": true") != std::string::npos, said.c_str());
+        const ReadScene moved = read(rod, {{"q", Value::Array{0.6, -0.9}}, {"project", true}});
+        QVERIFY2(moved.errors.empty(), textOf(moved.errors).c_str());
+        const std::vector<double>& x = moved.resolved->initial.x;
+        QVERIFY(std::abs(std::hypot(x[0], x[1]) - 1) < 1e-15);
+        QVERIFY(std::abs(x[0] * x[2] + x[1] * x[3]) < 1e-15);
+    }
+    void aVelocityOffTheConstraintIsProjectedWithAWarning() {
+        const ReadScene scene = read(rod, {{"v", Value::Array{1, 1}}});
+        QVERIFY2(scene.errors.empty(), textOf(scene.errors).c_str());
+        QVERIFY2(textOf(scene.warnings).find("constraints do not allow") != std::string::npos,
+                 textOf(scene.warnings).c_str());
+        const std::vector<double>& x = scene.resolved->initial.x;
+        QVERIFY(std::abs(x[0] * x[2] + x[1] * x[3]) < 1e-15);
+    }
+    /// Who does not know of constraints and forces says that it is these.
+    void othersRefuse_data() {
+        QTest::addColumn<QString>("scheme");
+        for (const char* scheme : {"sem-2", "multiscale-r1", "product-form", "stormer-verlet"})
+            QTest::newRow(scheme) << scheme;
+    }
+    void othersRefuse() {
+        QFETCH(QString, scheme);
+        const System system = *read(rod).resolved->system;
+        std::string said;
+        try {
+            if (const auto named = namedScheme(scheme.toStdString()))
+                said = mismatch(*named, system);
+            else
+                said =
+                    canIntegrate(*findBaseline(scheme.toStdString()), system) ? "" : "without a constraint";
+        } catch (const InvalidScene& e) {
+            said = e.what();
+        }
+        QVERIFY2(said.find("without a constraint") != std::string::npos, said.c_str());
+    }
+    /// A cyclic coordinate that a constraint or a force acts on has no conserved momentum.
+    void momentaThatArePulledAtAreNotKept() {
+        const auto momenta = [](const Value::Object& model) {
+            return read(model).resolved->system->momenta.size();
+        };
+        QCOMPARE(momenta({}), std::size_t{1});
+        QCOMPARE(momenta(rod), std::size_t{0});
+        QCOMPARE(momenta({{"forces", Value::Object{{"x", "-x_t"}}}}), std::size_t{0});
+        QCOMPARE(momenta({{"dissipation", "y_t^2"}}), std::size_t{1});
+    }
+};
+
+EXTREMAL_TEST(MechanismSceneTest)
+}  // namespace extremal::mechanism_scene_test
+#include "mechanism_scene_test.moc"
