@@ -4,6 +4,9 @@
 #include <vector>
 
 #include "engine/baseline/adaptive.hpp"
+#include "engine/mechanism/driven_flow.hpp"
+#include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/force.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal::baselines {
@@ -45,8 +48,9 @@ BaselineEntry dopri5() {
               "smooth forces"};
     e.isAdaptive = true;
     e.tableau = dopri5Tableau;
+    e.takes = Takes::only<Mechanical, Constraint, Force>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        return std::make_unique<Adaptive<Stepper>>(system.mechanics(), options);
+        return std::make_unique<Adaptive<Stepper>>(drivenMechanics(system), options);
     };
     return e;
 }

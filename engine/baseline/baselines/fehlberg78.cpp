@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Runge-Kutta-Fehlberg 7(8) of Boost.odeint.
 #include "engine/baseline/adaptive.hpp"
+#include "engine/mechanism/driven_flow.hpp"
+#include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/force.hpp"
 
 namespace extremal::baselines {
 
@@ -14,8 +17,9 @@ BaselineEntry fehlberg78() {
               Claims{8, false, false, {}},
               "smooth forces"};
     e.isAdaptive = true;
+    e.takes = Takes::only<Mechanical, Constraint, Force>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        return std::make_unique<Adaptive<Stepper>>(system.mechanics(), options);
+        return std::make_unique<Adaptive<Stepper>>(drivenMechanics(system), options);
     };
     return e;
 }

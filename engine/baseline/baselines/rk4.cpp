@@ -4,6 +4,9 @@
 #include "engine/baseline/classical_table.hpp"
 #include "engine/baseline/classical_tangent.hpp"
 #include "engine/baseline/flow_method.hpp"
+#include "engine/mechanism/driven_flow.hpp"
+#include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/force.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal::baselines {
@@ -98,8 +101,9 @@ BaselineEntry rk4() {
               ""};
     e.stabilityLimit = 2.8284271247461903;  // |R(iz)| <= 1 up to 2 sqrt 2
     e.tableau = rk4Tableau;
+    e.takes = Takes::only<Mechanical, Constraint, Force>();
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<Rk4>(system.mechanics(), options.step);
+        return makeFlowMethod<Rk4>(drivenMechanics(system), options.step);
     };
     return e;
 }

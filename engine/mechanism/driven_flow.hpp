@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Hamilton's vector field with forces and reactions in it, for methods that see a system through its flow:
+///     qdot = v,    pdot = L_q + F + g_q^T lambda,
+/// lambda from the constraints differentiated twice (index 1). Nothing keeps such a method on g = 0: it
+/// drifts off, by the order of the method.
+#pragma once
+
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+/// The mechanics of a system with that flow; those of the system itself where it has a Lagrangian alone. Its
+/// other calls are of the Lagrangian, and it is not separable.
+Mechanics<double> drivenMechanics(const System& system);
+
+}  // namespace extremal
