@@ -75,6 +75,13 @@ public:
         takes.isEverything_ = true;
         return takes;
     }
+    /// These and others besides.
+    template <class... P>
+    Takes with() const {
+        Takes takes = *this;
+        (takes.parts_.push_back(&P::part), ...);
+        return takes;
+    }
     bool isEverything() const { return isEverything_; }
     const std::vector<const PartInfo*>& all() const { return parts_; }  ///< empty where it is everything
     bool contains(const PartInfo& part) const {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// |H(t) - H(0)| on a logarithmic axis; says how many schemes drift (engine/figure/trend.hpp).
+#include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/force.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
 
@@ -11,7 +13,8 @@ ViewEntry energy() {
                              {againstField()}),
             .recipe = OwnRecipe{"energy"},
             .scales = logAgainstTime,
-            .observable = "energy"};
+            .observable = "energy",
+            .takes = plainProblems().with<Constraint, Force>()};
 }
 
 }  // namespace extremal::views

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Norm of the change of the conserved momenta, on a logarithmic axis.
 #include "engine/symmetry/conserved.hpp"
+#include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/force.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
 
@@ -13,6 +15,7 @@ ViewEntry momentum() {
             .recipe = OwnRecipe{"momentum"},
             .scales = logAgainstTime,
             .observable = "momentum",
+            .takes = plainProblems().with<Constraint, Force>(),
             .missing = [](const View&, const System& system) {
                 return std::string(hasMomenta(system) ? "" : "a conserved momentum");
             }};

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The balance of energy: H - H(0) less the work W of forces and of constraints that move with time.
+///
+/// W is the sum over the steps of h sum_i b_i F . v on the curve of the step, and of what moving constraints
+/// do. For Lagrangians quadratic in q and v and one Gauss rule for all, the balance is 0 to round-off
+/// whatever the force; else it has the order of the scheme. Schemes that do not say their work leave it
+/// unknown.
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/force.hpp"
+#include "engine/observe/catalog.hpp"
+
+namespace extremal::observables {
+
+ObservableEntry balance() {
+    ObservableEntry e;
+    e.item = {"balance",
+              "balance",
+              "Work W of forces and of constraints that move with time, and H - H(0) - W, which the motion "
+              "keeps at 0.",
+              {},
+              {},
+              "forces or constraints"};
+    e.takes = Takes::only<Mechanical, Constraint, Force>();
+    e.suits = [](const System& system) {
+        return system.parts.find<Constraint>() || system.parts.find<Force>();
+    };
+    e.bind = [](const ObserveContext& context) {
+        Observer o;
+        const std::string unit = context.system.energyUnit;
+        o.columns = {{"work", "W", unit, {}, {}}, {"balance", "H - H(0) - W", unit, {}, {}}};
+        o.extreme = 1;
+        const auto place = context.quantity("work");
+        o.readsQuantities = place.has_value();
+        const EnergyFunction energy = energyOf(context.system);
+        const double start = energy(context.initial.t, context.initial.x.data());
+        struct Sum {
+            double value = 0, lost = 0;  // of a sum of many small numbers
+        };
+        const auto sum = std::make_shared<Sum>();
+        o.evaluate = [place, energy, start, sum](const NodeBlock& nodes, double* values, std::size_t stride) {
+            for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
+                const double step =
+                    place ? nodes.quantities(i)[*place] : std::numeric_limits<double>::quiet_NaN();
+                if (!place || nodes.node(i) > 0) {
+                    const double add = step + sum->lost, next = sum->value + add;
+                    sum->lost = add - (next - sum->value);
+                    sum->value = next;
+                }
+                values[0] = sum->value;
+                values[1] = energy(nodes.t(i), nodes.x(i)) - start - sum->value;
+            }
+        };
+        o.checkpoint = [sum](Archive& archive) { archive(sum->value, sum->lost); };
+        return o;
+    };
+    return e;
+}
+
+}  // namespace extremal::observables

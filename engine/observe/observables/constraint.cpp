@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// How far the state is from its constraints: the largest |g| of the place, and the largest |g_q v + g_t| of
+/// the velocity.
+#include <limits>
+
+#include "engine/mechanism/mechanism.hpp"
+#include "engine/observe/catalog.hpp"
+
+namespace extremal::observables {
+
+ObservableEntry constraint() {
+    ObservableEntry e;
+    e.item = {"constraint",
+              "constraint",
+              "How far the state is from its constraints: the largest |g|, and the largest |dg/dt|.",
+              {},
+              {},
+              "constraints"};
+    e.takes = Takes::only<Mechanical, Constraint, Force>();
+    e.suits = [](const System& system) { return system.parts.find<Constraint>() != nullptr; };
+    e.bind = [](const ObserveContext& context) {
+        Observer o;
+        o.columns = {{"constraint", "max |g|", "", {}, {}}, {"constraint_velocity", "max |ġ|", "", {}, {}}};
+        o.extreme = 0;
+        o.evaluate = [mechanism = Mechanism(context.system.parts),
+                      v = Eigen::VectorXd(Eigen::VectorXd::Zero(context.system.dimension()))](
+                         const State& state, const StepReport&, double* values) mutable {
+            const auto& L = mechanism.mechanics();
+            const double *q = state.x.data(), *p = q + mechanism.dimension();
+            values[0] = mechanism.largestValue(state.t, q);
+            const bool hasVelocity = L.velocity(L.model.get(), state.t, q, p, v.data());
+            values[1] = hasVelocity ? mechanism.largestRate(state.t, q, v.data())
+                                    : std::numeric_limits<double>::quiet_NaN();
+        };
+        return o;
+    };
+    return e;
+}
+
+}  // namespace extremal::observables

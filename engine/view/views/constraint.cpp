@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The distance from the constraints, on a logarithmic axis.
+#include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/force.hpp"
+#include "engine/view/axes.hpp"
+#include "engine/view/catalog.hpp"
+
+namespace extremal::views {
+
+ViewEntry constraint() {
+    return {
+        .item = viewItem("constraint", "Distance from the constraints",
+                         "largest |g| of every scheme against time or steps, logarithmic", {againstField()}),
+        .recipe = ErrorAgainstTime{"constraint", "max |g|"},
+        .scales = logAgainstTime,
+        .observable = "constraint",
+        .takes = Takes::only<Mechanical, Constraint, Force>()};
+}
+
+}  // namespace extremal::views
