@@ -31,7 +31,7 @@ System makeLagrangian(const Settings& settings) {
         s.momenta.push_back({formula.coordinates[k], "p_" + typed::symbolOf(formula.coordinates[k]), "",
                              [k](const double*, const double* p) { return p[k]; }});
     }
-    const typed::Picture picture = typed::pictureOf(formula);
+    const typed::Picture picture = typed::pictureOf(formula, s.parts.find<Constraint>());
     s.draw = picture.draw;
     s.isSpatial = picture.isSpatial;
     const std::string& first = formula.coordinates[0];

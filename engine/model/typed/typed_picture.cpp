@@ -110,21 +110,93 @@ Picture chain(const Formula& formula, int cart, const std::vector<int>& angles) 
     }};
 }
 
-Picture bodies(const std::vector<TypedBody>& all) {
+/// A rod from a body to another one or to a fixed point.
+struct Rod {
+    std::size_t from = 0;
+    std::optional<std::size_t> to = {};
+    std::vector<double> anchor = {};  ///< places of the coordinates of `from`, where the other end is fixed
+};
+
+/// The second derivatives of constraint k.
+std::vector<double> curvatureOf(const Constraint& g, int k, const std::vector<double>& q) {
+    std::vector<double> lambda(static_cast<std::size_t>(g.count())), matrix(q.size() * q.size());
+    lambda[static_cast<std::size_t>(k)] = 1;
+    g.addCurvature(g.model.get(), 0, q.data(), lambda.data(), matrix.data());
+    return matrix;
+}
+
+/// Constraint k as a rod: c (|r_a - r_b|^2 - l^2), or c (|r_a - r_0|^2 - l^2), whose second derivatives are
+/// constant and c times those of a squared distance.
+std::optional<Rod> rodOf(const Constraint& g, int k, const std::vector<TypedBody>& bodies, std::size_t d) {
+    std::vector<double> q(d), other(d);
+    for (std::size_t i = 0; i < d; ++i) {
+        q[i] = 0.3 + 0.17 * static_cast<double>(i);
+        other[i] = 1.1 - 0.23 * static_cast<double>(i);
+    }
+    const std::vector<double> H = curvatureOf(g, k, q), again = curvatureOf(g, k, other);
+    const auto at = [&](int i, int j) {
+        return H[static_cast<std::size_t>(i) * d + static_cast<std::size_t>(j)];
+    };
+    const auto axes = [](const TypedBody& b) { return std::array<int, 3>{b.x, b.y, b.z}; };
+    std::vector<std::size_t> ends;
+    double scale = 0;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        for (const int axis : axes(bodies[b]))
+            if (axis >= 0 && at(axis, axis) != 0 && (ends.empty() || ends.back() != b)) {
+                ends.push_back(b);
+                scale = at(axis, axis);
+            }
+    if (ends.empty() || ends.size() > 2) return {};
+    std::vector<double> expected(d * d, 0);
+    const auto expect = [&](int i, int j, double value) {
+        if (i >= 0 && j >= 0) expected[static_cast<std::size_t>(i) * d + static_cast<std::size_t>(j)] = value;
+    };
+    for (const std::size_t a : ends)
+        for (const std::size_t b : ends)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                expect(axes(bodies[a])[axis], axes(bodies[b])[axis], a == b ? scale : -scale);
+    for (std::size_t i = 0; i < d * d; ++i)
+        if (std::abs(H[i] - expected[i]) > 1e-12 * std::abs(scale) || H[i] != again[i]) return {};
+    Rod rod{ends.front()};
+    if (ends.size() == 2) {
+        rod.to = ends.back();
+        return rod;
+    }
+    const auto n = static_cast<std::size_t>(g.count());
+    std::vector<double> value(n), byTime(n), byPlace(n * d);
+    g.first(g.model.get(), 0, q.data(), value.data(), byPlace.data(), byTime.data());
+    rod.anchor = q;
+    for (std::size_t i = 0; i < d; ++i) rod.anchor[i] -= byPlace[static_cast<std::size_t>(k) * d + i] / scale;
+    return rod;
+}
+
+std::vector<Rod> rodsOf(const Constraint* g, const std::vector<TypedBody>& bodies, std::size_t d) {
+    std::vector<Rod> rods;
+    for (int k = 0; g && k < g->count(); ++k)
+        if (const auto rod = rodOf(*g, k, bodies, d)) rods.push_back(*rod);
+    return rods;
+}
+
+Picture bodies(const std::vector<TypedBody>& all, const std::vector<Rod>& rods) {
     Picture picture;
     picture.isSpatial =
         std::any_of(all.begin(), all.end(), [](const TypedBody& b) { return b.z >= 0 && b.y >= 0; });
     picture.planeX = all.front().x;
     picture.planeY = all.front().y;
-    picture.draw = [all](const double* q, Drawing& drawing) {
+    picture.draw = [all, rods](const double* q, Drawing& drawing) {
         const bool isAlone = all.size() == 1;
-        if (isAlone) drawing.shapes.push_back(Disc{{0, 0, 0}, 2, ShapeRole::scenery});
+        for (const Rod& rod : rods) {
+            const Point end = rod.to ? all[*rod.to].at(q) : all[rod.from].at(rod.anchor.data());
+            if (!rod.to) drawing.shapes.push_back(Disc{end, 3, ShapeRole::scenery});
+            drawing.shapes.push_back(Segment{all[rod.from].at(q), end, 2});
+        }
+        if (isAlone && rods.empty()) drawing.shapes.push_back(Disc{{0, 0, 0}, 2, ShapeRole::scenery});
         for (const TypedBody& body : all) {
             const Point at = body.at(q);
             if (isAlone && body.y < 0 && !body.isPolar()) drawing.shapes.push_back(Segment{{0, 0, 0}, at, 2});
             drawing.shapes.push_back(Disc{at, all.size() > few ? smallDisc : largeDisc});
         }
-        drawing.tracer = all.front().at(q);
+        drawing.tracer = (rods.empty() ? all.front() : all.back()).at(q);
     };
     return picture;
 }
@@ -141,7 +213,7 @@ Picture point(std::size_t d) {
 
 }  // namespace
 
-Picture pictureOf(const Formula& formula) {
+Picture pictureOf(const Formula& formula, const Constraint* constraint) {
     const std::vector<std::string>& names = formula.coordinates;
     std::vector<int> angles;
     int cart = -1;
@@ -156,7 +228,7 @@ Picture pictureOf(const Formula& formula) {
             isChain = false;
     }
     if (isChain && !angles.empty()) return chain(formula, cart, angles);
-    if (const auto found = bodiesOf(names)) return bodies(*found);
+    if (const auto found = bodiesOf(names)) return bodies(*found, rodsOf(constraint, *found, names.size()));
     return point(names.size());
 }
 

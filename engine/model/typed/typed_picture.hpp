@@ -9,6 +9,9 @@
 ///     up) x1, x2, ...              bodies on a line r, phi                   a body in polar coordinates;
 ///     r1, phi1, ... several
 ///
+/// A constraint on bodies with x, y and z that keeps the distance of two of them, or of one from a fixed
+/// point, is a rod.
+///
 /// Of anything else the first two coordinates are a point in the plane, or one on a line. The trail is that
 /// of the first body, of a chain that of its end.
 #pragma once
@@ -16,6 +19,7 @@
 #include <functional>
 
 #include "engine/model/drawing.hpp"
+#include "engine/model/parts/constraint.hpp"
 #include "engine/model/typed/formula.hpp"
 
 namespace extremal::typed {
@@ -27,6 +31,7 @@ struct Picture {
     int planeX = -1, planeY = -1;
 };
 
-Picture pictureOf(const Formula& formula);
+/// `constraint`: null where there is none.
+Picture pictureOf(const Formula& formula, const Constraint* constraint = nullptr);
 
 }  // namespace extremal::typed

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/model/typed/typed_parts.hpp"
 #include "engine/model/typed/typed_picture.hpp"
 #include "tests/tools/test.hpp"
 
@@ -18,8 +19,11 @@ struct Drawn {
 };
 
 Drawn drawn(const std::vector<std::string>& names, const std::vector<double>& q,
-            const std::vector<std::pair<std::string, double>>& parameters = {}) {
-    const typed::Picture picture = typed::pictureOf({names, parameters, ""});
+            const std::vector<std::pair<std::string, double>>& parameters = {},
+            const Value::Object& constraints = {}) {
+    const typed::Formula formula{names, parameters, ""};
+    const auto constraint = typed::constraintOf({"lagrangian", {{"constraints", constraints}}, {}}, formula);
+    const typed::Picture picture = typed::pictureOf(formula, constraint ? &*constraint : nullptr);
     Drawing drawing;
     picture.draw(q.data(), drawing);
     Drawn all{{}, {}, {}, drawing.tracer, picture.isSpatial};
@@ -48,6 +52,22 @@ private slots:
         QCOMPARE(all.bodies.size(), std::size_t{3});
         QVERIFY(isNear(all.bodies[1], {3, 4, 0}) && isNear(all.bodies[2], {5, 6, 0}));
         QVERIFY(isNear(all.tracer, {1, 2, 0}) && !all.isSpatial);
+    }
+    /// Distances from a point that is not the origin, and between two bodies; a torus is no distance.
+    void constraintsThatKeepADistanceAreRods() {
+        const Drawn all =
+            drawn({"x1", "y1", "x2", "y2"}, {1, 2, 4, 6}, {{"l", 5}},
+                  {{"first", "3*((x1-1)^2+(y1+1)^2-9)"}, {"second", "(x2-x1)^2+(y2-y1)^2-l^2"}});
+        QCOMPARE(all.rods.size(), std::size_t{2});
+        QVERIFY(isNear(all.rods[0], {1, -1, 0}) && isNear(all.rods[1], {4, 6, 0}));
+        QCOMPARE(all.lengths, (std::vector<double>{3, 5}));
+        QVERIFY(isNear(all.tracer, {4, 6, 0}));
+        QCOMPARE(
+            drawn({"x", "y", "z"}, {2.5, 0, 0}, {}, {{"torus", "(sqrt(x^2+y^2)-2)^2+z^2-1/4"}}).rods.size(),
+            std::size_t{0});
+        QCOMPARE(drawn({"x1", "y1", "x2", "y2"}, {1, 2, 4, 6}, {}, {{"pin", "x1-x2"}}).rods.size(),
+                 std::size_t{0});
+        QCOMPARE(drawn({"x", "y"}, {1, 2}, {}, {{"ellipse", "x^2+2*y^2-9"}}).rods.size(), std::size_t{0});
     }
     void theOrderOfCoordinatesIsFree() {
         const Drawn all = drawn({"x_a", "x_b", "y_b", "y_a"}, {1, 2, 3, 4});
