@@ -11,7 +11,7 @@
 #include "app/report.hpp"
 #include "engine/core/text.hpp"
 #include "engine/study/catalogues.hpp"
-#include "ui/shell/handbook_pages.hpp"
+#include "ui/text/handbook_pages.hpp"
 
 namespace extremal::app {
 namespace {

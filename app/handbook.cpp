@@ -4,7 +4,7 @@
 #include "app/verbs.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/json.hpp"
-#include "ui/shell/handbook_pages.hpp"
+#include "ui/text/handbook_pages.hpp"
 
 namespace extremal::app {
 namespace {

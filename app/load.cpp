@@ -8,7 +8,7 @@
 #include "engine/core/text.hpp"
 #include "engine/run/load_scene.hpp"
 #include "engine/scene/json.hpp"
-#include "ui/own/own_schemes.hpp"
+#include "ui/workspace/own_schemes.hpp"
 
 namespace extremal::app {
 namespace {

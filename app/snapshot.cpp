@@ -11,7 +11,7 @@
 #include "app/watch_run.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/json.hpp"
-#include "ui/stage/snapshot.hpp"
+#include "ui/pictures/snapshot.hpp"
 
 namespace extremal::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
-#include "ui/shell/card_picture.hpp"
+#include "ui/pictures/card_picture.hpp"
 
 namespace {
 

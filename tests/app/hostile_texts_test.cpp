@@ -11,20 +11,20 @@
 #include <QTextTable>
 #include <QXmlStreamReader>
 
+#include "engine/core/text.hpp"
 #include "engine/figure/build.hpp"
 #include "engine/figure/svg.hpp"
 #include "engine/passport/passport.hpp"
 #include "engine/passport/program.hpp"
 #include "engine/run/export.hpp"
 #include "engine/run/run.hpp"
-#include "engine/core/text.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/view/catalog.hpp"
 #include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"
+#include "ui/pictures/export_folder.hpp"
 #include "ui/plots/plot_renderer.hpp"
-#include "ui/shell/export_folder.hpp"
 
 namespace extremal::hostile_texts_test {
 namespace {

@@ -17,8 +17,8 @@
 #include "tests/ui/window.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/playback.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 namespace {

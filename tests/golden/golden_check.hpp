@@ -14,7 +14,7 @@
 #include <QImage>
 #include <QString>
 
-#include "ui/stage/image_compare.hpp"
+#include "ui/pictures/image_compare.hpp"
 
 namespace extremal {
 

@@ -5,7 +5,7 @@
 #include "tests/golden/golden_check.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/stage/model_comparison.hpp"
-#include "ui/stage/snapshot.hpp"
+#include "ui/pictures/snapshot.hpp"
 
 namespace extremal::snapshot_test {
 

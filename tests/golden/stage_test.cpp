@@ -6,7 +6,7 @@
 #include "tests/golden/golden_check.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/stage/model_comparison.hpp"
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/stage/stage_overlay.hpp"
 #include "ui/stage/stage_picture.hpp"
 #include "ui/stage/stage_player.hpp"

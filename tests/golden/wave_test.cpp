@@ -8,8 +8,8 @@
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/golden/golden_check.hpp"
 #include "tests/tools/test.hpp"
+#include "ui/pictures/snapshot.hpp"
 #include "ui/plots/plot_renderer.hpp"
-#include "ui/stage/snapshot.hpp"
 
 namespace extremal::wave_test {
 

@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "tests/tools/filon_table.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/plots/plot_renderer.hpp"
-#include "ui/shell/theme.hpp"
 
 namespace extremal::tools {
 namespace {

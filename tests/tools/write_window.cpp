@@ -9,8 +9,8 @@
 
 #include "engine/scene/preset.hpp"
 #include "tests/ui/window.hpp"
-#include "ui/shell/playback.hpp"
 #include "ui/study/background_sweep.hpp"
+#include "ui/workspace/playback.hpp"
 
 namespace {
 

@@ -4,10 +4,10 @@
 
 #include <QTest>
 
+#include "ui/compare/compare_view.hpp"
 #include "ui/panels/discretizer.hpp"
-#include "ui/shell/compare_view.hpp"
 #include "ui/shell/main_window.hpp"
-#include "ui/shell/run_control.hpp"
+#include "ui/workspace/run_control.hpp"
 
 namespace extremal {
 

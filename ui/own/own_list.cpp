@@ -12,12 +12,12 @@
 #include "engine/core/text.hpp"
 #include "engine/run/export.hpp"
 #include "engine/scene/json.hpp"
-#include "ui/panels/card.hpp"
-#include "ui/panels/tool_window.hpp"
-#include "ui/shell/notices.hpp"
-#include "ui/shell/save_dialog.hpp"
-#include "ui/shell/scheme_edits.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/notices.hpp"
+#include "ui/base/save_dialog.hpp"
+#include "ui/base/tool_window.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 namespace {
@@ -40,14 +40,6 @@ QString kindOf(const Value& scheme) {
 }
 
 }  // namespace
-
-OwnSchemes ownSchemes() {
-    try {
-        return OwnSchemes::load(ownSchemesFile());
-    } catch (const InvalidScene&) {
-        return {};  // the window of the catalogue says why
-    }
-}
 
 OwnList::OwnList(Workspace& workspace, Notices& notices, QWidget* parent)
     : QWidget(parent, Qt::Window), workspace_(workspace), notices_(notices) {

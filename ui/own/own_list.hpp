@@ -7,7 +7,7 @@
 
 #include <functional>
 
-#include "ui/own/own_schemes.hpp"
+#include "ui/workspace/own_schemes.hpp"
 
 class QLabel;
 class QListWidget;
@@ -49,8 +49,5 @@ private:
     QPushButton *add_, *rename_, *remove_, *export_;
     bool isFilling_ = false;
 };
-
-/// The user's schemes as they are on disk now; empty where the file cannot be used.
-OwnSchemes ownSchemes();
 
 }  // namespace extremal

@@ -15,13 +15,13 @@
 #include <utility>
 
 #include "engine/family/stability_check.hpp"
-#include "ui/panels/format.hpp"
+#include "ui/base/background.hpp"
+#include "ui/base/format.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/panels/sideways_area.hpp"
-#include "ui/shell/background.hpp"
-#include "ui/shell/scheme_edits.hpp"
-#include "ui/shell/scheme_finder.hpp"
-#include "ui/shell/theme.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/scheme_finder.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/family/choices.hpp"
-#include "ui/panels/card.hpp"
-#include "ui/shell/fitting.hpp"
+#include "ui/base/card.hpp"
+#include "ui/workspace/fitting.hpp"
 
 class QGridLayout;
 class QLabel;

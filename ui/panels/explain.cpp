@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "engine/view/catalog.hpp"
-#include "ui/panels/format.hpp"
-#include "ui/shell/plain_tips.hpp"
+#include "ui/base/format.hpp"
+#include "ui/base/plain_tips.hpp"
 
 namespace extremal {
 namespace {

@@ -5,11 +5,11 @@
 #include <QLabel>
 
 #include "engine/scene/topics.hpp"
-#include "ui/panels/card.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/scrub_label.hpp"
+#include "ui/base/value_edit.hpp"
 #include "ui/panels/problem_text.hpp"
-#include "ui/panels/scrub_label.hpp"
-#include "ui/panels/value_edit.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

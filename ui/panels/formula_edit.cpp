@@ -7,7 +7,7 @@
 #include <QTextLayout>
 #include <algorithm>
 
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 
 namespace extremal {
 

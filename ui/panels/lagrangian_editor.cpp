@@ -10,14 +10,14 @@
 #include <QVBoxLayout>
 
 #include "engine/core/expression.hpp"
-#include "ui/panels/card.hpp"
+#include "ui/base/card.hpp"
 #include "ui/panels/problem_text.hpp"
 #include "ui/panels/formula_edit.hpp"
-#include "ui/panels/lagrangian_edits.hpp"
+#include "ui/workspace/lagrangian_edits.hpp"
 #include "ui/panels/parameter_table.hpp"
-#include "ui/shell/background.hpp"
-#include "ui/shell/theme.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/base/background.hpp"
+#include "ui/base/theme.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

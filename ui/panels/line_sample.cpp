@@ -3,7 +3,7 @@
 
 #include <QPainter>
 
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 
 namespace extremal {
 

@@ -12,12 +12,12 @@
 
 #include "engine/core/expression.hpp"
 #include "engine/core/text.hpp"
-#include "ui/panels/card.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/theme.hpp"
+#include "ui/base/value_edit.hpp"
 #include "ui/panels/problem_text.hpp"
-#include "ui/panels/lagrangian_edits.hpp"
-#include "ui/panels/value_edit.hpp"
-#include "ui/shell/theme.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/lagrangian_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

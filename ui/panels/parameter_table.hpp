@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/value.hpp"
-#include "ui/shell/document.hpp"
+#include "ui/workspace/document.hpp"
 
 class QGridLayout;
 class QLabel;

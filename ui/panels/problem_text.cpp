@@ -8,8 +8,8 @@
 #include <QVariant>
 
 #include "engine/scene/topics.hpp"
-#include "ui/panels/card.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/base/card.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

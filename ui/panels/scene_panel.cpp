@@ -11,14 +11,14 @@
 #include "engine/model/system.hpp"
 #include "engine/scene/event_names.hpp"
 #include "engine/scene/format.hpp"
-#include "engine/scene/resolve.hpp"
 #include "engine/scene/json.hpp"
-#include "ui/panels/combo_box.hpp"
+#include "engine/scene/resolve.hpp"
+#include "ui/base/combo_box.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/lagrangian_editor.hpp"
 #include "ui/panels/symmetry_line.hpp"
-#include "ui/shell/scheme_edits.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

@@ -3,8 +3,8 @@
 /// events, as forms from descriptors.
 #pragma once
 
-#include "ui/panels/card.hpp"
 #include "engine/core/settings.hpp"
+#include "ui/base/card.hpp"
 
 class QComboBox;
 

@@ -21,16 +21,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/panels/card.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/format.hpp"
+#include "ui/base/scrub_label.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/panels/explain.hpp"
-#include "ui/panels/format.hpp"
 #include "ui/panels/line_sample.hpp"
 #include "ui/panels/problem_text.hpp"
 #include "ui/panels/scheme_editor.hpp"
-#include "ui/panels/scrub_label.hpp"
-#include "ui/shell/scheme_edits.hpp"
-#include "ui/shell/theme.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

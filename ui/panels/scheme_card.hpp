@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "engine/run/comparison.hpp"
-#include "ui/shell/document.hpp"
+#include "ui/workspace/document.hpp"
 
 class QHBoxLayout;
 class QLabel;

@@ -10,14 +10,14 @@
 #include "engine/model/system.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/resolve.hpp"
-#include "ui/panels/format.hpp"
+#include "ui/base/format.hpp"
+#include "ui/base/plain_tips.hpp"
+#include "ui/base/scrub_label.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/panels/scheme_editor.hpp"
-#include "ui/panels/scrub_label.hpp"
-#include "ui/shell/plain_tips.hpp"
-#include "ui/shell/scheme_edits.hpp"
-#include "ui/shell/theme.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

@@ -8,12 +8,12 @@
 #include <cmath>
 
 #include "engine/scene/topics.hpp"
-#include "ui/panels/format.hpp"
+#include "ui/base/format.hpp"
+#include "ui/base/scrub_label.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/panels/problem_text.hpp"
 #include "ui/panels/scheme_card.hpp"
-#include "ui/panels/scrub_label.hpp"
-#include "ui/shell/theme.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 namespace {

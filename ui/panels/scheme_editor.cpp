@@ -10,19 +10,19 @@
 #include <algorithm>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/integrator/composition.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
-#include "ui/own/own_list.hpp"
-#include "ui/panels/combo_box.hpp"
+#include "ui/base/combo_box.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/problem_text.hpp"
 #include "ui/panels/term_strip.hpp"
-#include "ui/shell/fitting.hpp"
-#include "ui/shell/scheme_edits.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/fitting.hpp"
+#include "ui/workspace/own_schemes.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

@@ -12,14 +12,14 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/family/scheme.hpp"
-#include "ui/own/own_list.hpp"
-#include "ui/panels/card.hpp"
-#include "ui/panels/format.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/format.hpp"
 #include "ui/panels/scheme_card.hpp"
-#include "ui/shell/fitting.hpp"
-#include "ui/shell/run_control.hpp"
-#include "ui/shell/scheme_edits.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/fitting.hpp"
+#include "ui/workspace/own_schemes.hpp"
+#include "ui/workspace/run_control.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

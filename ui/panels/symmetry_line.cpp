@@ -9,8 +9,8 @@
 #include "engine/model/system.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/symmetry/symmetry.hpp"
-#include "ui/shell/background.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/base/background.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 namespace {

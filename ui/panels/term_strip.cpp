@@ -13,9 +13,9 @@
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/bind.hpp"
-#include "ui/panels/card.hpp"
-#include "ui/panels/combo_box.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/combo_box.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 namespace {

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "engine/figure/sample.hpp"
+#include "ui/base/format.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/panels/explain.hpp"
-#include "ui/panels/format.hpp"
-#include "ui/shell/theme.hpp"
 
 namespace extremal {
 ValuesTable::ValuesTable(QWidget* parent) : QTableWidget(parent) {

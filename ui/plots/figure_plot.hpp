@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "engine/figure/figure.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/plots/polyline.hpp"
 #include "ui/plots/view_state.hpp"
-#include "ui/shell/theme.hpp"
 
 class QCustomPlot;
 

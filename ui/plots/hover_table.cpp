@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/figure/sample.hpp"
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 
 namespace extremal {
 namespace {

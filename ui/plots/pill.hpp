@@ -4,7 +4,7 @@
 
 #include <qcustomplot.h>
 
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 
 namespace extremal {
 

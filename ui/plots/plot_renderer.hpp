@@ -15,7 +15,7 @@
 #include <optional>
 
 #include "engine/figure/figure.hpp"
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 
 class QPaintDevice;
 class QPainter;

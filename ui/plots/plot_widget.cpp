@@ -7,9 +7,9 @@
 #include <QSaveFile>
 #include <QVBoxLayout>
 
+#include "ui/base/save_dialog.hpp"
 #include "ui/plots/plot_impl.hpp"
 #include "ui/plots/plot_renderer.hpp"
-#include "ui/shell/save_dialog.hpp"
 
 namespace extremal {
 namespace {

@@ -6,9 +6,9 @@
 #include <QLabel>
 #include <QPushButton>
 
-#include "ui/panels/card.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/notices.hpp"
 #include "ui/panels/problem_text.hpp"
-#include "ui/shell/notices.hpp"
 
 namespace extremal {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "engine/scene/json.hpp"
 #include "engine/scene/preset.hpp"
-#include "ui/shell/card_picture.hpp"
+#include "ui/pictures/card_picture.hpp"
 
 namespace extremal {
 namespace {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "ui/panels/card.hpp"
+#include "ui/base/card.hpp"
 
 class QLabel;
 

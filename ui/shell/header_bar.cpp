@@ -7,11 +7,11 @@
 
 #include <cmath>
 
-#include "ui/panels/card.hpp"
-#include "ui/panels/format.hpp"
-#include "ui/panels/seek_slider.hpp"
-#include "ui/shell/run_control.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/format.hpp"
+#include "ui/base/seek_slider.hpp"
+#include "ui/workspace/run_control.hpp"
+#include "ui/workspace/workspace.hpp"
 #include "ui/study/background_sweep.hpp"
 
 namespace extremal {

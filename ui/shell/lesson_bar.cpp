@@ -8,11 +8,11 @@
 
 #include <algorithm>
 
-#include "ui/panels/card.hpp"
-#include "ui/shell/playback.hpp"
-#include "ui/shell/text_view.hpp"
-#include "ui/shell/theme.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/theme.hpp"
+#include "ui/text/text_view.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 

@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 
 class QLabel;
 class QSplitter;

@@ -11,12 +11,12 @@
 #include <algorithm>
 
 #include "ui/shell/actions.hpp"
-#include "ui/shell/autosave.hpp"
 #include "ui/shell/main_window.hpp"
-#include "ui/shell/playback.hpp"
-#include "ui/shell/run_control.hpp"
 #include "ui/shell/termination.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/autosave.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/run_control.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 namespace {

@@ -17,10 +17,10 @@
 
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
-#include "ui/panels/card.hpp"
-#include "ui/shell/background.hpp"
+#include "ui/base/background.hpp"
+#include "ui/base/card.hpp"
+#include "ui/pictures/card_picture.hpp"
 #include "ui/shell/banners.hpp"
-#include "ui/shell/card_picture.hpp"
 #include "ui/stage/surface.hpp"
 
 namespace extremal {

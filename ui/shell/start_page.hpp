@@ -12,8 +12,8 @@
 
 #include "engine/run/run.hpp"
 #include "engine/scene/scene.hpp"
-#include "ui/shell/autosave.hpp"
 #include "ui/shell/gallery.hpp"
+#include "ui/workspace/autosave.hpp"
 
 class QGridLayout;
 class QHBoxLayout;

@@ -11,7 +11,7 @@
 #include <functional>
 #include <vector>
 
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 
 class QWidget;
 

@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/panels/card.hpp"
-#include "ui/panels/combo_box.hpp"
-#include "ui/panels/seek_slider.hpp"
-#include "ui/shell/playback.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/combo_box.hpp"
+#include "ui/base/seek_slider.hpp"
+#include "ui/workspace/playback.hpp"
 
 namespace extremal {
 namespace {

@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "engine/core/text.hpp"
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/stage/stage_inset.hpp"
 #include "ui/stage/stage_player.hpp"
 

@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/stage/stage_canvas.hpp"
 #include "ui/stage/stage_overlay.hpp"
 #include "ui/stage/stage_picture.hpp"

@@ -13,8 +13,8 @@
 #include "engine/figure/study_figure.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/study/sweep.hpp"
-#include "ui/shell/background.hpp"
-#include "ui/shell/run_control.hpp"
+#include "ui/base/background.hpp"
+#include "ui/workspace/run_control.hpp"
 
 namespace extremal {
 namespace {

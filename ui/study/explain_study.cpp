@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "engine/core/text.hpp"
-#include "ui/panels/format.hpp"
+#include "ui/base/format.hpp"
 
 namespace extremal {
 namespace {

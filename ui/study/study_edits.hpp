@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/scene/scene.hpp"
-#include "ui/shell/document.hpp"
+#include "ui/workspace/document.hpp"
 
 namespace extremal {
 

@@ -12,7 +12,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/study/catalog.hpp"
-#include "ui/panels/combo_box.hpp"
+#include "ui/base/combo_box.hpp"
 #include "ui/study/varied_number_edit.hpp"
 
 namespace extremal {

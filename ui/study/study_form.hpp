@@ -2,7 +2,7 @@
 /// What study is wanted: its kind, and what this kind needs besides the scene.
 #pragma once
 
-#include "ui/panels/card.hpp"
+#include "ui/base/card.hpp"
 #include "ui/study/study_job.hpp"
 
 class QCheckBox;

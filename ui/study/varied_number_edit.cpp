@@ -13,8 +13,8 @@
 #include "engine/core/text.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/map_grid.hpp"
-#include "ui/panels/card.hpp"
-#include "ui/panels/combo_box.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/combo_box.hpp"
 
 namespace extremal {
 namespace {

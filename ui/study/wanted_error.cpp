@@ -10,9 +10,9 @@
 #include <cmath>
 
 #include "engine/core/text.hpp"
-#include "ui/panels/card.hpp"
-#include "ui/panels/format.hpp"
-#include "ui/panels/seek_slider.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/format.hpp"
+#include "ui/base/seek_slider.hpp"
 
 namespace extremal {
 namespace {

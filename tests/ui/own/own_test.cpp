@@ -18,17 +18,17 @@
 #include "engine/scene/resolve.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/base/notices.hpp"
 #include "ui/own/own_list.hpp"
-#include "ui/own/own_schemes.hpp"
 #include "ui/own/own_window.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/panels/term_strip.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/notices.hpp"
-#include "ui/shell/scheme_finder.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/own_schemes.hpp"
+#include "ui/workspace/scheme_finder.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::own_test {
 namespace {

@@ -16,14 +16,14 @@
 #include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/base/format.hpp"
 #include "ui/panels/discretizer.hpp"
-#include "ui/panels/format.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/panels/scheme_editor.hpp"
-#include "ui/shell/run_control.hpp"
-#include "ui/shell/scheme_edits.hpp"
-#include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
+#include "ui/workspace/run_control.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::elliptic_choices_test {
 

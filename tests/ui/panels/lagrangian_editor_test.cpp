@@ -15,10 +15,10 @@
 #include "tests/ui/enter.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/panels/formula_edit.hpp"
-#include "ui/panels/lagrangian_edits.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/main_window.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/lagrangian_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::lagrangian_editor_test {
 

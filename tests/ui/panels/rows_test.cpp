@@ -9,13 +9,13 @@
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/base/scrub_label.hpp"
 #include "ui/panels/explain.hpp"
 #include "ui/panels/scheme_card.hpp"
-#include "ui/panels/scrub_label.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/playback.hpp"
-#include "ui/shell/scheme_edits.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::rows_test {
 namespace {

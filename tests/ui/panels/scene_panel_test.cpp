@@ -8,11 +8,11 @@
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
-#include "ui/panels/format.hpp"
+#include "ui/base/format.hpp"
 #include "ui/panels/scene_panel.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/main_window.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::scene_panel_test {
 

@@ -8,10 +8,10 @@
 #include "engine/scene/bind.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/panels/discretizer.hpp"
-#include "ui/shell/fitting.hpp"
 #include "ui/shell/main_window.hpp"
-#include "ui/shell/run_control.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/fitting.hpp"
+#include "ui/workspace/run_control.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::wave_choices_test {
 

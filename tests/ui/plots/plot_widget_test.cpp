@@ -15,9 +15,9 @@
 #include "engine/figure/sample.hpp"
 #include "tests/engine/figure/hand_made_figure.hpp"
 #include "tests/tools/test.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/plots/plot_group.hpp"
 #include "ui/plots/plot_widget.hpp"
-#include "ui/shell/theme.hpp"
 
 namespace extremal::plot_widget_test {
 namespace {

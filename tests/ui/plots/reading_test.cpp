@@ -11,13 +11,13 @@
 #include "engine/figure/sample.hpp"
 #include "tests/engine/figure/hand_made_figure.hpp"
 #include "tests/tools/test.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/plots/axis_title.hpp"
 #include "ui/plots/figure_plot.hpp"
 #include "ui/plots/hover_table.hpp"
 #include "ui/plots/plot_group.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/plots/tickers.hpp"
-#include "ui/shell/theme.hpp"
 
 namespace extremal::reading_test {
 namespace {

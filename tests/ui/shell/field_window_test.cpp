@@ -13,13 +13,13 @@
 #include "engine/scene/preset.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/compare/profile_drawing.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/plots/plot_widget.hpp"
-#include "ui/shell/playback.hpp"
-#include "ui/shell/profile_drawing.hpp"
-#include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_player.hpp"
 #include "ui/stage/stage_widget.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::field_window_test {
 namespace {

@@ -8,7 +8,7 @@
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::fields_test {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Where the focus is: after a scene opens at the stage, and never at a field that the user has not pointed at.
+/// Where the focus is: after a scene opens at the stage, and never at a field that the user has not pointed
+/// at.
 #include <QAbstractSpinBox>
 #include <QApplication>
 #include <QComboBox>
@@ -18,9 +19,9 @@
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/gallery.hpp"
-#include "ui/shell/playback.hpp"
-#include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::focus_test {
 namespace {

@@ -14,9 +14,9 @@
 #include "ui/panels/scheme_card.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/banners.hpp"
-#include "ui/shell/handbook_pages.hpp"
-#include "ui/shell/help_window.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/text/handbook_pages.hpp"
+#include "ui/windows/help_window.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::handbook_links_test {
 namespace {

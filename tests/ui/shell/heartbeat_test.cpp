@@ -18,7 +18,7 @@
 #include "tests/ui/window.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/theme_switch.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::heartbeat_test {
 namespace {

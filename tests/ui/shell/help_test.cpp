@@ -11,15 +11,15 @@
 
 #include "engine/scene/preset.hpp"
 #include "tests/tools/test.hpp"
+#include "ui/base/theme.hpp"
+#include "ui/compare/compare_view.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/compare_view.hpp"
-#include "ui/shell/help_window.hpp"
 #include "ui/shell/main_window.hpp"
-#include "ui/shell/theme.hpp"
-#include "ui/shell/workspace.hpp"
 #include "ui/study/study_page.hpp"
+#include "ui/windows/help_window.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::help_test {
 namespace {

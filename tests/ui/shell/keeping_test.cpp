@@ -16,17 +16,17 @@
 #include "engine/view/catalog.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
-#include "ui/panels/card.hpp"
+#include "ui/base/background.hpp"
+#include "ui/base/card.hpp"
+#include "ui/compare/plot_edits.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/background.hpp"
-#include "ui/shell/playback.hpp"
-#include "ui/shell/plot_edits.hpp"
-#include "ui/shell/scheme_edits.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::keeping_test {
 namespace {

@@ -11,15 +11,15 @@
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/notices.hpp"
 #include "ui/plots/plot_widget.hpp"
-#include "ui/panels/card.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/gallery.hpp"
 #include "ui/shell/lesson_bar.hpp"
-#include "ui/shell/notices.hpp"
-#include "ui/shell/playback.hpp"
 #include "ui/shell/start_page.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::lesson_test {
 

@@ -8,7 +8,7 @@
 
 #include "engine/core/libraries.hpp"
 #include "tests/tools/test.hpp"
-#include "ui/shell/about.hpp"
+#include "ui/windows/about.hpp"
 
 namespace extremal::licences_test {
 namespace {

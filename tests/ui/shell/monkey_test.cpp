@@ -30,9 +30,9 @@
 #include "engine/scene/codec.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/base/theme.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/theme.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::monkey_test {
 namespace {

@@ -16,8 +16,8 @@
 #include "ui/panels/scheme_list.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::names_test {
 namespace {

@@ -7,12 +7,12 @@
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
-#include "ui/panels/card.hpp"
+#include "ui/base/card.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/palette_dialog.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/windows/palette_dialog.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::palette_test {
 

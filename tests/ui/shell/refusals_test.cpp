@@ -14,11 +14,11 @@
 #include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/base/notices.hpp"
 #include "ui/panels/scene_panel.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/notices.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::refusals_test {
 

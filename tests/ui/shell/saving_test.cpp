@@ -11,8 +11,8 @@
 
 #include "engine/scene/preset.hpp"
 #include "tests/tools/test.hpp"
-#include "ui/shell/notices.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/base/notices.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::saving_test {
 namespace {

@@ -17,15 +17,15 @@
 #include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
-#include "ui/panels/card.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/notices.hpp"
+#include "ui/base/seek_slider.hpp"
 #include "ui/panels/scheme_card.hpp"
-#include "ui/panels/seek_slider.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/autosave.hpp"
-#include "ui/shell/notices.hpp"
-#include "ui/shell/playback.hpp"
 #include "ui/shell/start_page.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/autosave.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::session_test {
 namespace {

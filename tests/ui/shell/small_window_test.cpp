@@ -18,11 +18,11 @@
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
-#include "ui/panels/card.hpp"
-#include "ui/panels/combo_box.hpp"
+#include "ui/base/card.hpp"
+#include "ui/base/combo_box.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::small_window_test {
 namespace {

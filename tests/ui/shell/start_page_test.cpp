@@ -13,10 +13,10 @@
 #include "engine/scene/preset.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
-#include "ui/shell/card_picture.hpp"
+#include "ui/pictures/card_picture.hpp"
 #include "ui/shell/gallery.hpp"
 #include "ui/shell/start_page.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::start_page_test {
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "tests/tools/test.hpp"
-#include "ui/shell/autosave.hpp"
-#include "ui/shell/notices.hpp"
+#include "ui/base/notices.hpp"
 #include "ui/shell/termination.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/autosave.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::termination_test {
 

@@ -11,9 +11,9 @@
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/playback.hpp"
 #include "ui/shell/start_page.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::way_back_test {
 

@@ -16,16 +16,16 @@
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/base/notices.hpp"
 #include "ui/own/own_window.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/cost_trial.hpp"
-#include "ui/shell/folder_dialog.hpp"
-#include "ui/shell/notices.hpp"
 #include "ui/shell/theme_switch.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/windows/folder_dialog.hpp"
+#include "ui/workspace/cost_trial.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::window_habits_test {
 

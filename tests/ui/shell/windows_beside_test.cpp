@@ -9,14 +9,14 @@
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/pictures/export_folder.hpp"
 #include "ui/plots/plot_renderer.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/copies_window.hpp"
-#include "ui/shell/export_folder.hpp"
-#include "ui/shell/race_window.hpp"
-#include "ui/shell/size_dialog.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/windows/copies_window.hpp"
+#include "ui/windows/race_window.hpp"
+#include "ui/windows/size_dialog.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::windows_beside_test {
 

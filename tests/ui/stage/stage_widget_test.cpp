@@ -7,7 +7,7 @@
 #include <QTest>
 
 #include "tests/ui/stage/model_comparison.hpp"
-#include "ui/shell/theme.hpp"
+#include "ui/base/theme.hpp"
 
 namespace extremal::stage_widget_test {
 

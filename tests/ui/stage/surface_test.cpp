@@ -5,8 +5,8 @@
 #include <QTest>
 
 #include "tests/ui/stage/fake_comparison.hpp"
-#include "ui/shell/theme.hpp"
-#include "ui/stage/image_compare.hpp"
+#include "ui/base/theme.hpp"
+#include "ui/pictures/image_compare.hpp"
 #include "ui/stage/stage_overlay.hpp"
 #include "ui/stage/stage_player.hpp"
 

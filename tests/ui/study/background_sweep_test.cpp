@@ -14,7 +14,7 @@
 #include "tests/ui/window.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/header_bar.hpp"
-#include "ui/shell/workspace.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::background_sweep_test {
 

@@ -11,10 +11,10 @@
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/workspace.hpp"
 #include "ui/study/explain_study.hpp"
 #include "ui/study/study_form.hpp"
 #include "ui/study/study_page.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::explain_study_test {
 namespace {

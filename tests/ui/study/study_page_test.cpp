@@ -17,13 +17,13 @@
 #include "engine/study/proposal.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/base/notices.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/notices.hpp"
-#include "ui/shell/workspace.hpp"
 #include "ui/study/study_edits.hpp"
 #include "ui/study/study_form.hpp"
 #include "ui/study/study_page.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal::study_page_test {
 namespace {

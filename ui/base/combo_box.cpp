@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/base/combo_box.hpp"
+
+#include <QStyleOptionComboBox>
+#include <QStylePainter>
+
+namespace extremal {
+
+void ComboBox::paintEvent(QPaintEvent*) {
+    QStylePainter painter(this);
+    QStyleOptionComboBox option;
+    initStyleOption(&option);
+    const QRect room =
+        style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this);
+    option.currentText =
+        fontMetrics().elidedText(currentText(), Qt::ElideRight, room.width() - 2);  // what Fusion leaves free
+    const QString tip = option.currentText == currentText() ? QString() : currentText();
+    if (toolTip() == ownTip_ && tip != ownTip_) setToolTip(ownTip_ = tip);
+    painter.drawComplexControl(QStyle::CC_ComboBox, option);
+    painter.drawControl(QStyle::CE_ComboBoxLabel, option);
+}
+
+}  // namespace extremal

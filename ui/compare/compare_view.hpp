@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The Compare page: the stage, speed against accuracy, and the linked plots of the scene's views, each in a
+/// card. A plot keeps its zoom and its history for as long as the scene has its view.
+#pragma once
+
+#include <QWidget>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/model/system.hpp"
+#include "engine/scene/scene.hpp"
+#include "ui/compare/card_layout.hpp"
+#include "ui/compare/figure_job.hpp"
+#include "ui/compare/profile_drawing.hpp"
+
+class QAction;
+class QMenu;
+class QScrollArea;
+
+namespace extremal {
+
+class BackgroundSweep;
+class Card;
+class CasePreview;
+class Playback;
+class PlotGroup;
+class PlotWidget;
+class RunControl;
+class StageWidget;
+struct Theme;
+class Workspace;
+
+/// How the cards of the page share its room.
+enum class PageLayout {
+    automatic,  ///< as many columns as the window has room for
+    oneColumn,
+    twoColumns,
+    threeColumns,
+    plotsOnly,  ///< as automatic, without the stage
+};
+
+class CompareView : public QWidget {
+    Q_OBJECT
+public:
+    CompareView(Workspace& workspace, RunControl& run, Playback& playback, const Theme& theme,
+                QWidget* parent = nullptr);
+    ~CompareView() override;
+    /// Puts another theme on the stage and the plots, one after the other.
+    std::vector<std::function<void()>> partsOfTheme(const Theme& theme);
+    void fitAll();
+    /// Brings the card of a view into sight and marks it; that of no view ("") marks none.
+    void pointAt(const QString& view);
+    /// Where "speed against accuracy" has its lines from.
+    void setSweep(const BackgroundSweep& sweep);
+    /// The wanted error, a line in that plot which can be dragged.
+    void setWanted(double error);
+    /// The plot that was last clicked, else the first one; null if there is none.
+    PlotWidget* currentPlot() const;
+    StageWidget* stage() const { return stage_; }
+    bool hasStage() const { return hasStage_; }
+    std::vector<PlotWidget*> plots() const;
+    void setPageLayout(PageLayout layout);
+    PageLayout pageLayout() const { return pageLayout_; }
+    int columns() const;
+    /// One card takes the whole page; the same one again, or restore(), brings the others back.
+    void maximize(Card* card);
+    /// False if nothing was maximised.
+    bool restore();
+    /// Whether the plots show the latest results. Figures are made in another thread.
+    bool isCurrent() const;
+    /// Makes at once what is still missing, for exports.
+    void complete();
+    /// Figures made so far, each of one plot: what is not needed is not made, which tests count.
+    long long figuresMade() const { return figuresMade_; }
+
+signals:
+    void saveFailed(const QString& reason);
+    void caseLoaded(const QString& text);      ///< of a map, into the scene
+    void startRefused(const QString& reason);  ///< no motion starts at a place that was chosen
+    void figuresChanged();
+    void wantedMoved(double error);
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    struct Slot {
+        int number;
+        View view;
+        Card* card;
+        PlotWidget* plot;
+        std::shared_ptr<const Comparison> shown = {};  ///< what the plot shows the view of
+        View shownView = {};
+    };
+    void rebuild();  ///< another set of views
+    void discard(std::unique_ptr<Slot> slot);
+    Slot& makeSlot(const View& view);
+    void makeMaximizable(Card& card);
+    void addSceneActions(QMenu& menu, Slot& slot);
+    void arrange();
+    void refresh();  ///< new results
+    FigureJob missing() const;
+    void startJob();
+    void take(FigureSet made);
+    void alignMargins();
+    void loadCase(const View& view, double value, double step);
+    QString selectedLabel() const;     ///< empty: no scheme is selected
+    void connectDrawing();             ///< of initial profiles, on the stage
+    void connectPreview();             ///< of cases of maps, on the stage
+    void connectCases(Slot& slot);     ///< of its map
+    void connectStarting(Slot& slot);  ///< of motions, in its plot
+    void showWanted();
+    void addSweep(const View& view, Figure& figure) const;
+    void showStarts();  ///< the handles of the scene's start
+    /// The system of the scene; null until there are results with its model.
+    const System* systemOfScene() const;
+
+    Workspace& workspace_;
+    RunControl& run_;
+    Playback& playback_;
+    const Theme* theme_;
+    PlotGroup* group_;
+    QScrollArea* scroll_;
+    QWidget* inside_;
+    CardLayout* cardLayout_;
+    PageLayout pageLayout_ = PageLayout::automatic;
+    std::vector<std::pair<Card*, CardShape>> arranged_;
+    Card *stageCard_, *maximized_ = nullptr;
+    QAction* draw_ = nullptr;
+    std::optional<ProfileDrawing> drawing_;  ///< of the stroke that is being made
+    StageWidget* stage_;
+    CasePreview* preview_;                      ///< of a case of a map, on the stage
+    std::shared_ptr<const Comparison> staged_;  ///< what the stage shows
+    std::vector<std::unique_ptr<Slot>> slots_;
+    std::shared_ptr<const System> system_;  ///< of the results
+    int columns_ = 0, nextNumber_ = 0;
+    bool hasStage_ = true;  ///< the model of the results has something to draw there
+    bool isJobRunning_ = false;
+    long long figuresMade_ = 0;
+    const BackgroundSweep* sweep_ = nullptr;
+    double wanted_ = 0;  ///< 0: none
+};
+
+}  // namespace extremal

@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Everything the main window can do, each with its key.
+#include <QActionGroup>
+#include <QApplication>
+#include <QDesktopServices>
+#include <QFileDialog>
+#include <QMenu>
+#include <QMessageBox>
+#include <QScrollArea>
+#include <QSettings>
+#include <QStatusBar>
+#include <QTabBar>
+#include <QTimer>
+
+#include "engine/core/text.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/map_grid.hpp"
+#include "engine/scene/view_choices.hpp"
+#include "engine/view/catalog.hpp"
+#include "ui/base/notices.hpp"
+#include "ui/base/save_dialog.hpp"
+#include "ui/compare/compare_view.hpp"
+#include "ui/compare/plot_edits.hpp"
+#include "ui/compare/starting.hpp"
+#include "ui/own/own_list.hpp"
+#include "ui/panels/scheme_list.hpp"
+#include "ui/panels/values_table.hpp"
+#include "ui/plots/plot_widget.hpp"
+#include "ui/shell/actions.hpp"
+#include "ui/shell/lesson_bar.hpp"
+#include "ui/shell/main_window.hpp"
+#include "ui/shell/start_page.hpp"
+#include "ui/stage/stage_widget.hpp"
+#include "ui/study/study_page.hpp"
+#include "ui/windows/about.hpp"
+#include "ui/windows/copies_window.hpp"
+#include "ui/windows/help_window.hpp"
+#include "ui/windows/inspector_window.hpp"
+#include "ui/windows/passport_window.hpp"
+#include "ui/windows/race_window.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/run_control.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
+
+#include <QStackedWidget>
+
+#include <algorithm>
+#include <functional>
+#include <tuple>
+
+namespace extremal {
+
+void MainWindow::makeActions() {
+    addFileActions();
+    addEditActions();
+    addViewActions();
+    addRunActions();
+    addStudyActions();
+    addLessonActions();
+    actions_->add("help", tr("Help"), tr("Handbook, for what has the focus"), {QKeySequence(Qt::Key_F1)},
+                  [this] {
+                      const QWidget* shown = stack_->currentWidget();
+                      if (shown != startPage_) shown = pages_->currentWidget();
+                      showHelp(helpPageOf(QApplication::focusWidget(), shown));
+                  });
+    actions_->add("searchHelp", tr("Help"), tr("Search the handbook..."),
+                  {QKeySequence(Qt::CTRL | Qt::Key_F)}, [this] {
+                      showHelp(QStringLiteral("index"));
+                      help_->focusSearch();
+                  });
+    actions_->add("paper", tr("Help"), tr("Map of the paper"), {QKeySequence(Qt::ALT | Qt::Key_F1)},
+                  [this] { showHelp(QStringLiteral("paper")); });
+    actions_->add("keys", tr("Help"), tr("Keys"), {QKeySequence(Qt::SHIFT | Qt::Key_F1)},
+                  [this] { showHelp(QStringLiteral("keys")); });
+    actions_->add("log", tr("Help"), tr("Log"), {QKeySequence(Qt::CTRL | Qt::Key_L)}, [this] { showLog(); });
+    actions_->add("about", tr("Help"), tr("About Extremal"), {QKeySequence(Qt::CTRL | Qt::Key_F1)}, [this] {
+        QMessageBox::about(this, tr("About Extremal"), aboutText(compare_->stage()->drawingBackend()));
+    });
+    QDesktopServices::setUrlHandler(QStringLiteral("handbook"), this, "openHandbook");
+    QDesktopServices::setUrlHandler(QStringLiteral("preset"), this, "openPreset");
+    // All others are of the scene.
+    actions_->keepWithoutScene({"gallery", "newLagrangian", "open", "pasteScene", "quit", "palette", "theme",
+                                "larger", "smaller", "fullScreen", "ownSchemes", "help", "searchHelp",
+                                "paper", "keys", "log", "about"});
+}
+
+void MainWindow::startLesson() {
+    if (!lesson_->hasLesson()) {
+        notices_->post({Notice::Kind::information,
+                        "lesson",
+                        tr("This scene has no lesson."),
+                        tr("the start page marks the presets that have one"),
+                        {{tr("Start page"), [this] { showStartPage(); }}}});
+        return;
+    }
+    tabs_->setCurrentIndex(0);
+    lesson_->start();
+}
+
+void MainWindow::addLessonActions() {
+    const QString menu = tr("Help");
+    actions_->add(
+        "lesson", menu, tr("Start the lesson"), {QKeySequence(Qt::ALT | Qt::Key_L)},
+        [this] { startLesson(); }, tr("What this scene teaches, step by step"));
+    actions_->add("lessonNext", menu, tr("Next step of the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Right)},
+                  [this] { lesson_->next(); });
+    actions_->add("lessonBack", menu, tr("Step back in the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Left)},
+                  [this] { lesson_->back(); });
+    actions_->add("lessonDo", menu, tr("Do the step of the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Return)},
+                  [this] { lesson_->doStep(); });
+}
+
+void MainWindow::openHandbook(const QUrl& url) {
+    showHelp(url.hasFragment() ? url.path() + '#' + url.fragment() : url.path());
+}
+
+void MainWindow::openPreset(const QUrl& url) { open("preset:" + url.path()); }
+
+void MainWindow::showHelp(const QString& page) {
+    if (!help_) {
+        help_ = new HelpWindow(this);
+        connect(help_, &HelpWindow::presetRequested, this, [this](const QString& id) {
+            if (!open("preset:" + id)) return;
+            raise();
+            activateWindow();
+        });
+    }
+    help_->open(page);
+}
+
+void MainWindow::addFileActions() {
+    const QString menu = tr("File");
+    actions_->add("gallery", menu, tr("New from the gallery"), {QKeySequence::New},
+                  [this] { showStartPage(); });
+    actions_->add("newLagrangian", menu, tr("New from a Lagrangian"),
+                  {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_N)}, [this] { newFromLagrangian(); });
+    actions_->add("open", menu, tr("Open..."), {QKeySequence::Open}, [this] { openDialog(); });
+    actions_->add("save", menu, tr("Save"), {QKeySequence::Save}, [this] { save(false); });
+    actions_->add("saveAs", menu, tr("Save as..."), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S)},
+                  [this] { save(true); });
+    actions_->addSeparator(menu);
+    actions_->add("exportPlot", menu, tr("Export plot..."), {QKeySequence(Qt::CTRL | Qt::Key_E)}, [this] {
+        if (PlotWidget* plot = compare_->currentPlot()) plot->saveDialog();
+    });
+    actions_->add(
+        "exportSized", menu, tr("Export plot with a size..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_P)},
+        [this] { exportSized(); }, tr("Width and height in millimetres, resolution in dots per inch"));
+    actions_->add(
+        "exportFrames", menu, tr("Export the stage as frames..."),
+        {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_F)}, [this] { exportFrames(); },
+        tr("Pictures from the start to the end, for a film"));
+    actions_->add("exportAll", menu, tr("Export everything..."),
+                  {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, [this] { exportDialog(); });
+    actions_->add(
+        "report", menu, tr("Save a page for browsers..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_E)},
+        [this] { exportReport(); }, tr("Notes, schemes and pictures in one HTML file"));
+    actions_->addSeparator(menu);
+    actions_->add("copyScene", menu, tr("Copy the scene as text"),
+                  {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, [this] { copyScene(); });
+    actions_->add("pasteScene", menu, tr("Paste a scene"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_V)},
+                  [this] { pasteScene(); });
+    actions_->addSeparator(menu);
+    actions_->add("quit", menu, tr("Quit"), {QKeySequence(Qt::CTRL | Qt::Key_Q)}, [this] { close(); });
+}
+
+void MainWindow::addEditActions() {
+    const QString menu = tr("Edit");
+    actions_->add("undo", menu, tr("Undo"), {QKeySequence::Undo}, [this] { workspace_->undo(); });
+    actions_->add("redo", menu, tr("Redo"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)},
+                  [this] { workspace_->redo(); });
+    actions_->addSeparator(menu);
+    actions_->add("add", menu, tr("Add scheme"), {QKeySequence(Qt::CTRL | Qt::Key_Plus)},
+                  [this] { schemes_->openAddMenu(); });
+    actions_->add("editScheme", menu, tr("Edit scheme"), {QKeySequence(Qt::Key_F3)},
+                  [this] { schemes_->editSelected(); });
+    actions_->add("passport", menu, tr("Passport of the scheme"), {QKeySequence(Qt::Key_F4)}, [this] {
+        if (!passport_) passport_ = new PassportWindow(*workspace_, *notices_, this);
+        passport_->open();
+    });
+    actions_->add(
+        "inspect", menu, tr("Inspect one step"), {QKeySequence(Qt::Key_F6)},
+        [this] {
+            if (!inspector_) inspector_ = new InspectorWindow(*workspace_, *run_, *playback_, theme_, this);
+            inspector_->open();
+        },
+        tr("The step of the selected scheme at the cursor: motion, functions, iteration, equations"));
+    actions_->add("own", menu, tr("Own space and rule..."), {QKeySequence(Qt::CTRL | Qt::Key_F3)},
+                  [this] { showOwn(); });
+    actions_->add("ownSchemes", menu, tr("Your schemes..."), {QKeySequence(Qt::SHIFT | Qt::Key_F3)},
+                  [this] { ownList().open(); });
+    actions_->add("rename", menu, tr("Rename scheme"), {QKeySequence(Qt::Key_F2)},
+                  [this] { schemes_->renameSelected(); });
+    actions_->add("duplicate", menu, tr("Duplicate scheme"), {QKeySequence(Qt::CTRL | Qt::Key_D)},
+                  [this] { schemes_->duplicateSelected(); });
+    actions_->add("remove", menu, tr("Remove scheme"), {QKeySequence(Qt::Key_Delete)},
+                  [this] { schemes_->removeSelected(); });
+    actions_->add("up", menu, tr("Move scheme up"), {QKeySequence(Qt::CTRL | Qt::Key_Up)},
+                  [this] { schemes_->moveSelected(-1); });
+    actions_->add("down", menu, tr("Move scheme down"), {QKeySequence(Qt::CTRL | Qt::Key_Down)},
+                  [this] { schemes_->moveSelected(1); });
+    actions_->add("solo", menu, tr("Selected scheme alone, or all"), {QKeySequence(Qt::Key_S)},
+                  [this] { schemes_->soloSelected(); });
+    for (int i = 0; i < 9; ++i)
+        actions_->add(QStringLiteral("toggle%1").arg(i + 1), menu,
+                      tr("Switch scheme %1 on or off").arg(i + 1), {QKeySequence(Qt::Key_1 + i)},
+                      [this, i] { toggleScheme(i); });
+}
+
+/// Says what a digit has done, as it may have been meant for something else.
+void MainWindow::toggleScheme(int index) {
+    const auto& schemes = workspace_->scene().schemes;
+    if (!workspace_->hasScene() || index >= static_cast<int>(schemes.size())) return;
+    schemes_->toggle(index);
+    const SchemeSpec& scheme = schemes[static_cast<std::size_t>(index)];
+    const QString name = QString::fromStdString(scheme.label);
+    statusBar()->showMessage(scheme.isEnabled
+                                 ? tr("%1 is on again").arg(name)
+                                 : tr("%1 is off: the key %2 switches it on again").arg(name).arg(index + 1),
+                             6000);
+}
+
+/// The plots of the catalogue, checked where the scene has them.
+void MainWindow::fillPlots(QMenu& menu) {
+    menu.clear();
+    if (!isSceneInSight()) return;
+    const Scene& scene = workspace_->scene();
+    for (const ViewEntry* const offered : offeredPlots(scene)) {
+        const ViewEntry& entry = *offered;
+        const std::string id = entry.item.id;
+        const bool isShown =
+            std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == id; });
+        QAction* action = menu.addAction(QString::fromStdString(entry.item.title));
+        action->setCheckable(true);
+        action->setChecked(isShown);
+        action->setToolTip(QString::fromStdString(entry.item.description));
+        connect(action, &QAction::triggered, this, [this, id, isShown] {
+            workspace_->edit(editsForView(workspace_->scene(), id, !isShown),
+                             isShown ? tr("Hide a plot") : tr("Show a plot"));
+        });
+    }
+    menu.setToolTipsVisible(true);
+}
+
+void MainWindow::addViewActions() {
+    const QString menu = tr("View");
+    actions_->add(
+        "back", menu, tr("Back to the scene"), {QKeySequence(Qt::Key_Escape)}, [this] { goBack(); },
+        tr("From the start page to the scene that was open, as it was"));
+    actions_->add("palette", menu, tr("Find an action..."), {QKeySequence(Qt::CTRL | Qt::Key_K)},
+                  [this] { showPalette(); });
+    actions_->add("fit", menu, tr("Fit all"), {QKeySequence(Qt::Key_A)}, [this] { compare_->fitAll(); });
+    actions_->add("values", menu, tr("Values at the cursor"), {QKeySequence(Qt::Key_V)}, [this] {
+        values_->setVisible(values_->isHidden());
+        showValues();
+    });
+    for (const auto& [index, id, text] :
+         {std::tuple{0, "compare", tr("Compare")}, {1, "notes", tr("Notes")}, {2, "studies", tr("Studies")}})
+        actions_->add(id, menu, text, {QKeySequence(Qt::CTRL | (Qt::Key_1 + index))},
+                      [this, index = index] { tabs_->setCurrentIndex(index); });
+    auto* plots = new QMenu(tr("Plots"), this);
+    connect(plots, &QMenu::aboutToShow, this, [this, plots] { fillPlots(*plots); });
+    actions_->addSubmenu(menu, plots);
+    actions_->add("plots", menu, tr("Choose plots..."), {QKeySequence(Qt::Key_P)},
+                  [this, plots] { plots->popup(compare_->mapToGlobal(QPoint(24, 24))); });
+    addLayoutActions(menu);
+    actions_->add("theme", menu, tr("Light or dark"), {QKeySequence(Qt::CTRL | Qt::Key_T)}, [this] {
+        Theme theme = theme_.isDark ? Theme::light() : Theme::dark();
+        theme.fontScale = theme_.fontScale;
+        setTheme(theme);
+    });
+    const auto scaleBy = [this](double factor) {
+        Theme theme = theme_;
+        theme.fontScale = std::clamp(theme_.fontScale * factor, 0.7, 2.0);
+        setTheme(theme);
+    };
+    actions_->add("larger", menu, tr("Larger text"), {QKeySequence(Qt::CTRL | Qt::Key_BracketRight)},
+                  [scaleBy] { scaleBy(1.1); });
+    actions_->add("smaller", menu, tr("Smaller text"), {QKeySequence(Qt::CTRL | Qt::Key_BracketLeft)},
+                  [scaleBy] { scaleBy(1 / 1.1); });
+    actions_->add("resetLayout", menu, tr("Reset layout"), {QKeySequence(Qt::CTRL | Qt::Key_0)}, [this] {
+        Theme theme = theme_.isDark ? Theme::dark() : Theme::light();
+        setTheme(theme);
+        actions_->find("layout0")->trigger();
+        for (const char* panel : {"scenePanel", "schemesPanel"})
+            if (QAction* action = actions_->find(panel); !action->isChecked()) action->trigger();
+        showNormal();
+        resize(1600, 1000);
+    });
+    actions_->add("fullScreen", menu, tr("Full screen"), {QKeySequence(Qt::Key_F11)}, [this] {
+        if (isFullScreen())
+            showNormal();
+        else
+            showFullScreen();
+    });
+}
+
+/// The layout of the Compare page and the side panels, which the next session finds as they are.
+void MainWindow::addLayoutActions(const QString& menu) {
+    actions_->addSeparator(menu);
+    auto* group = new QActionGroup(this);
+    const QStringList names{tr("Layout: automatic"), tr("Layout: one column"), tr("Layout: two columns"),
+                            tr("Layout: three columns"), tr("Layout: plots only")};
+    for (int i = 0; i < names.size(); ++i) {
+        QAction* action = actions_->add(QStringLiteral("layout%1").arg(i), menu, names[i],
+                                        {QKeySequence(Qt::ALT | (Qt::Key_1 + i))}, [this, i] {
+                                            compare_->setPageLayout(static_cast<PageLayout>(i));
+                                            if (isRemembered_) QSettings().setValue("window/layout", i);
+                                        });
+        action->setCheckable(true);
+        group->addAction(action);
+    }
+    const int last = isRemembered_ ? QSettings().value("window/layout").toInt() : 0;
+    group->actions().at(std::clamp(last, 0, static_cast<int>(names.size()) - 1))->trigger();
+    const auto addPanel = [&](const char* id, const QString& text, const QKeySequence& key, QWidget* panel) {
+        QAction* action = actions_->add(id, menu, text, {key}, [this, id, panel] {
+            panel->setVisible(panel->isHidden());
+            shareWidth();
+            if (isRemembered_) QSettings().setValue(QStringLiteral("window/%1").arg(id), !panel->isHidden());
+        });
+        action->setCheckable(true);
+        const bool isShown =
+            !isRemembered_ || QSettings().value(QStringLiteral("window/%1").arg(id), true).toBool();
+        panel->setVisible(isShown);
+        action->setChecked(isShown);
+    };
+    addPanel("scenePanel", tr("Panel of the scene"), QKeySequence(Qt::Key_F7), left_);
+    addPanel("schemesPanel", tr("Panel of the schemes"), QKeySequence(Qt::Key_F8), schemes_);
+    actions_->addSeparator(menu);
+}
+
+void MainWindow::addRunActions() {
+    const QString menu = tr("Run");
+    actions_->add("play", menu, tr("Play or pause"), {QKeySequence(Qt::Key_Space)},
+                  [this] { playback_->setPlaying(!playback_->isPlaying()); });
+    const auto move = [this](int rows) { return [this, rows] { playback_->stepBy(rows, rowStep()); }; };
+    actions_->add("stepForward", menu, tr("One row forward"), {QKeySequence(Qt::Key_Right)}, move(1));
+    actions_->add("stepBack", menu, tr("One row back"), {QKeySequence(Qt::Key_Left)}, move(-1));
+    actions_->add("pageForward", menu, tr("50 rows forward"), {QKeySequence(Qt::Key_PageDown)}, move(50));
+    actions_->add("pageBack", menu, tr("50 rows back"), {QKeySequence(Qt::Key_PageUp)}, move(-50));
+    actions_->add("home", menu, tr("To the start"), {QKeySequence(Qt::Key_Home)},
+                  [this] { playback_->setTime(playback_->start()); });
+    actions_->add("end", menu, tr("To the end"), {QKeySequence(Qt::Key_End)},
+                  [this] { playback_->setTime(playback_->end()); });
+    actions_->add(
+        "startHere", menu, tr("Start from the state at the cursor"), {QKeySequence(Qt::CTRL | Qt::Key_I)},
+        [this] { startFromCursor(); },
+        tr("The initial data are where the selected scheme, or the first one, is at the cursor"));
+    actions_->addSeparator(menu);
+    actions_->add("restart", menu, tr("Compute again"), {QKeySequence(Qt::Key_R)}, [this] { run_->start(); });
+    actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)}, [this] {
+        if (studies_->isVisible() && studies_->stop()) return;
+        if (compare_->restore()) return;
+        if (!run_->isRunning()) workspace_->selectScheme(-1);
+        run_->stop();
+    });
+}
+
+void MainWindow::startFromCursor() {
+    const auto results = run_->results();
+    if (!results || results->schemes.empty() || !results->system) return;
+    const int selected = workspace_->selectedScheme();
+    const SchemeResult* from = results->schemes.front().get();
+    for (const auto& s : results->schemes)
+        if (selected >= 0 &&
+            s->spec.label == workspace_->scene().schemes[static_cast<std::size_t>(selected)].label)
+            from = s.get();
+    const StartEdits start = editsForStartAt(*results->system, *from, playback_->time());
+    if (start.problem.isEmpty())
+        workspace_->edit(start.edits, tr("Start from the cursor"));
+    else
+        notices_->post({Notice::Kind::information,
+                        "start",
+                        tr("No motion starts there: %1.").arg(start.problem),
+                        tr("models with coordinates can be started from the cursor"),
+                        {}});
+}
+
+void MainWindow::addStudyActions() {
+    const QString menu = tr("Analyse");
+    const auto onPage = [this](void (StudyPage::*act)()) {
+        return [this, act] {
+            if (!workspace_->hasScene()) return;
+            tabs_->setCurrentIndex(2);
+            std::invoke(act, studies_);
+        };
+    };
+    actions_->add("runStudy", menu, tr("Run the study"), {QKeySequence(Qt::CTRL | Qt::Key_R)},
+                  onPage(&StudyPage::start),
+                  tr("Every scheme that is on over many steps: errors, costs, and what is worth it"));
+    actions_->add("chooseStudy", menu, tr("Choose the study..."),
+                  {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_R)}, onPage(&StudyPage::openChoices));
+    actions_->add("wantedError", menu, tr("Wanted error"), {QKeySequence(Qt::Key_W)},
+                  onPage(&StudyPage::askForError), tr("The error that the cheapest scheme is to reach"));
+    actions_->add("measureCheapest", menu, tr("Measure the cheapest scheme"),
+                  {QKeySequence(Qt::CTRL | Qt::Key_M)}, onPage(&StudyPage::measureCheapest),
+                  tr("Runs every scheme that is on at the step that the wanted error needs"));
+    actions_->add(
+        "race", menu, tr("Race"), {QKeySequence(Qt::Key_F9)},
+        [this] {
+            if (!race_) race_ = new RaceWindow(*run_, theme_, this);
+            race_->open();
+        },
+        tr("A stage for each scheme, all with the same processor time; the wanted error is the finish line"));
+    actions_->add(
+        "perturb", menu, tr("Perturb and watch"), {QKeySequence(Qt::Key_F10)},
+        [this] {
+            if (!copies_) copies_ = new CopiesWindow(*workspace_, *playback_, theme_, this);
+            copies_->open();
+        },
+        tr("The motion of the selected scheme and a copy that starts a little apart"));
+    actions_->addSeparator(menu);
+    actions_->add("useResult", menu, tr("Use the selected result"), {QKeySequence(Qt::CTRL | Qt::Key_U)},
+                  onPage(&StudyPage::useSelected));
+    actions_->add("loadResult", menu, tr("Show the selected result in Compare"),
+                  {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_U)}, onPage(&StudyPage::loadSelected));
+}
+
+void MainWindow::openDialog() {
+    const QString path =
+        QFileDialog::getOpenFileName(this, tr("Open scene"), {}, tr("Scenes (*.json);;All files (*)"));
+    if (!path.isEmpty()) open(path);
+}
+
+void MainWindow::save(bool asksName) {
+    if (!workspace_->hasScene()) return;
+    if (!asksName && !workspace_->path().isEmpty()) {
+        workspace_->save();
+        return;
+    }
+    const QString path = askForSave(this, tr("Save scene"), workspace_->fileName(), tr("Scenes (*.json)"));
+    if (!path.isEmpty()) workspace_->saveAs(path);
+}
+
+}  // namespace extremal
