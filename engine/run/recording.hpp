@@ -17,6 +17,7 @@
 #include "engine/model/conservative.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/advice.hpp"
+#include "engine/run/bound_observer.hpp"
 #include "engine/run/checkpoints.hpp"
 #include "engine/run/delayed_rows.hpp"
 #include "engine/run/event_watch.hpp"
@@ -35,23 +36,9 @@
 
 namespace extremal {
 
-inline void growTo(double& extreme, double value) {
-    if (!(std::abs(value) <= extreme) && std::isfinite(value)) extreme = std::abs(value);
-}
-
 /// One march over the time interval with fixed sampling, and what it records.
 struct Recording {
-    struct Bound {
-        Observer observer;
-        std::size_t firstColumn;
-        std::size_t extreme;   ///< index in Summary::extremes; none if the observable declares none
-        double Summary::*own;  ///< the same number under a name of its own; or null
-        StateValues state;     ///< which of its values must be numbers
-        /// Nodes at which its extreme is not a number, and the time of the first of them.
-        long long unknownNodes = 0;
-        double unknownFrom = 0;
-    };
-    static constexpr auto none = static_cast<std::size_t>(-1);
+    using Bound = BoundObserver;
     const Scene& scene;
     const ResolvedScheme& scheme;
     const SchemeSpec& spec;
@@ -134,7 +121,7 @@ struct Recording {
                                  scheme.plain(), step, integrator->quantities(), integrator.get(),
                                  scheme.claims.order}),
                     result.trajectory.columns.size(),
-                    none,
+                    Bound::none,
                     nullptr,
                     {}};
             b.state = StateValues(*entry, b.observer, system, initial);
@@ -180,7 +167,7 @@ struct Recording {
         const std::size_t width = result.trajectory.columns.size();
         Summary& summary = result.summary;
         for (Bound& b : observers) {
-            if (b.extreme == none) continue;
+            if (b.extreme == Bound::none) continue;
             const double* v = values.data() + b.firstColumn + static_cast<std::size_t>(b.observer.extreme);
             double& extreme = summary.extremes[b.extreme].value;
             for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -362,7 +349,7 @@ struct Recording {
     void nameUnknownNodes() {
         Summary& s = result.summary;
         for (const Bound& b : observers) {
-            if (b.extreme == none || b.observer.delay > 0) continue;
+            if (b.extreme == Bound::none || b.observer.delay > 0) continue;
             const Summary::Extreme& extreme = s.extremes[b.extreme];
             const long long known = s.steps + 1 - b.unknownNodes;
             if (!std::isfinite(extreme.value) || b.unknownNodes == 0 || b.unknownFrom == initialNode.t)
@@ -384,6 +371,50 @@ struct Recording {
         archive(references);
     }
 
+    /// What sees each stretch of the march, in this order: the watch for events first of all, since the node
+    /// after one that stops the run is not shown to the others; observers, rows, steps, what is looked at
+    /// inside of steps; the account of costs last. The arguments must outlive the sinks.
+    template <class Publish>
+    std::vector<MarchSink> sinksFor(std::optional<EventWatch>& watch, std::optional<InsideStep>& inside,
+                                    Judge& judge, bool isDense, Publish& publish) {
+        std::vector<MarchSink> sinks;
+        const bool readsQuantities = std::any_of(observers.begin(), observers.end(),
+                                                 [](const Bound& b) { return b.observer.readsQuantities; });
+        const auto observe = [this](const Stretch& stretch) { growExtremes(stretch.nodes); };
+        if (watch)
+            sinks.push_back(
+                {[this, &watch](const Stretch& stretch) { return seeEvents(*watch, stretch); }, true});
+        const auto beforeStop = [this](auto see) {
+            return [this, see](const Stretch& stretch) {
+                if (!stopped) see(stretch);
+                return true;
+            };
+        };
+        sinks.push_back({beforeStop(observe), false, readsQuantities,
+                         [this, &judge](const NodeBlock& nodes) { return soundNodes(nodes, judge); }});
+        sinks.push_back(
+            {beforeStop([this, isDense](const Stretch& stretch) { recordRows(stretch, isDense); }), isDense});
+        if (recordsSteps())
+            sinks.push_back(
+                {beforeStop([this](const Stretch& stretch) { recordSteps(stretch); }), false, true});
+        if (inside)
+            sinks.push_back({beforeStop([&inside](const Stretch& stretch) {
+                                 if (stretch.isStart)
+                                     inside->start(stretch.state);
+                                 else
+                                     inside->look(stretch.integrator, stretch.before, stretch.state,
+                                                  stretch.soFar.last);
+                             }),
+                             true});
+        sinks.push_back({[this, &publish](const Stretch& stretch) {
+            limitRows();
+            account(stretch.soFar, stretch.state);
+            if (!stretch.isStart) publish();
+            return true;
+        }});
+        return sinks;
+    }
+
     /// Integrates to the end or the first trouble; `publish` is called between blocks. `file`: keeps and has
     /// checkpoints of this march, under the name of the stage; null: there are none.
     template <class Publish>
@@ -397,39 +428,7 @@ struct Recording {
         if (inside && !inside->isWanted()) inside.reset();
         const Judge freshJudge(system, initialNode, step, isEnergySeen);
         Judge judge = freshJudge;
-        std::vector<MarchSink> sinks;
-        const bool readsQuantities = std::any_of(observers.begin(), observers.end(),
-                                                 [](const Bound& b) { return b.observer.readsQuantities; });
-        const auto observe = [&](const Stretch& stretch) { growExtremes(stretch.nodes); };
-        // First of all: the node after an event that stops the run is not shown to the others.
-        if (watch)
-            sinks.push_back({[&](const Stretch& stretch) { return seeEvents(*watch, stretch); }, true});
-        const auto beforeStop = [this](auto see) {
-            return [this, see](const Stretch& stretch) {
-                if (!stopped) see(stretch);
-                return true;
-            };
-        };
-        sinks.push_back({beforeStop(observe), false, readsQuantities,
-                         [&](const NodeBlock& nodes) { return soundNodes(nodes, judge); }});
-        sinks.push_back({beforeStop([&](const Stretch& stretch) { recordRows(stretch, isDense); }), isDense});
-        if (recordsSteps())
-            sinks.push_back({beforeStop([&](const Stretch& stretch) { recordSteps(stretch); }), false, true});
-        if (inside)
-            sinks.push_back({beforeStop([&](const Stretch& stretch) {
-                                 if (stretch.isStart)
-                                     inside->start(stretch.state);
-                                 else
-                                     inside->look(stretch.integrator, stretch.before, stretch.state,
-                                                  stretch.soFar.last);
-                             }),
-                             true});
-        sinks.push_back({[&](const Stretch& stretch) {
-            limitRows();
-            account(stretch.soFar, stretch.state);
-            if (!stretch.isStart) publish();
-            return true;
-        }});
+        std::vector<MarchSink> sinks = sinksFor(watch, inside, judge, isDense, publish);
         const MarchGrid grid = marchGrid(scene, scheme, step);
         const auto fresh = isTimed ? integrator->clone() : nullptr;
         warmUp(*integrator, state, grid, stop);

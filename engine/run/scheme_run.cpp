@@ -36,6 +36,12 @@ Reference companionOrReason(const ResolvedScene& resolved, const ResolvedScheme&
     }
 }
 
+/// Keeps every m-th row.
+void thinRows(Trajectory& trajectory, std::size_t m) {
+    for (Column& column : trajectory.columns) column.values = thinned(column.values, m);
+    trajectory.nodes = thinned(trajectory.nodes, m);
+}
+
 }  // namespace
 
 SchemeRun::SchemeRun(const ResolvedScene& scene, std::size_t index, const ProductPlan& plan,
@@ -94,53 +100,55 @@ void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::st
     }
 }
 
+/// A march of which every `stride`-th node becomes a row. Where `maxRows` is not 0, it keeps no more rows
+/// than that, and says whether there were more (hasOverflown).
+Recording SchemeRun::record(const Reference& reference, bool hasCompanion, long long stride,
+                            long long maxRows, const std::stop_token& stop) {
+    using Clock_ = std::chrono::steady_clock;
+    const double step = signedStep(scene_, spec_.step.value);
+    const State own = schemeStart(resolved_, scheme_, step);
+    Recording p(resolved_, scheme_, own, reference, scene_.observe, step, stride, latest()->style, stop);
+    p.hasCompanion = hasCompanion;
+    p.maxRows = maxRows;
+    p.isTimed = plan_.isTimed;
+    p.plan = plan_;
+    const ObservableEntry* error = findObservable("error");
+    if (plan_.has(Product::denseError) && reference.make && error)
+        p.denseError = error->bind({*systemOf(resolved_, scheme_), own, reference.make(), nullptr, step, {}});
+    auto last = Clock_::now();
+    auto pause = std::chrono::milliseconds(30);
+    const auto publishNow = [&] {
+        const auto now = Clock_::now();
+        if (now - last < pause) return;
+        publish(p.result);
+        last = Clock_::now();
+        // Copying rows must stay a small part of the work.
+        pause = std::max(std::chrono::milliseconds(30),
+                         std::chrono::duration_cast<std::chrono::milliseconds>(20 * (last - now)));
+    };
+    p.run(publishNow, checkpoint_, "rows " + std::to_string(stride) + " " + std::to_string(maxRows));
+    return p;
+}
+
 void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std::stop_token& stop) {
     const bool hasCompanion = ofScene.info.type == "companion";
     std::string withoutBar;
     const Reference reference = hasCompanion ? companionOrReason(resolved_, scheme_, withoutBar, stop)
                                              : referenceFor(ofScene, resolved_, scheme_);
     const System& system = *systemOf(resolved_, scheme_);
-    const int style = latest()->style;
     const double step = signedStep(scene_, spec_.step.value);
-    using Clock_ = std::chrono::steady_clock;
     constexpr long long heldRows = 60000;
-    auto record = [&](long long stride, long long maxRows) {
-        const State own = schemeStart(resolved_, scheme_, step);
-        Recording p(resolved_, scheme_, own, reference, scene_.observe, step, stride, style, stop);
-        p.hasCompanion = hasCompanion;
-        p.maxRows = maxRows;
-        p.isTimed = plan_.isTimed;
-        p.plan = plan_;
-        const ObservableEntry* error = findObservable("error");
-        if (plan_.has(Product::denseError) && reference.make && error)
-            p.denseError = error->bind({system, own, reference.make(), nullptr, step, {}});
-        auto last = Clock_::now();
-        auto pause = std::chrono::milliseconds(30);
-        const auto publishNow = [&] {
-            const auto now = Clock_::now();
-            if (now - last < pause) return;
-            publish(p.result);
-            last = Clock_::now();
-            // Copying rows must stay a small part of the work.
-            pause = std::max(std::chrono::milliseconds(30),
-                             std::chrono::duration_cast<std::chrono::milliseconds>(20 * (last - now)));
-        };
-        p.run(publishNow, checkpoint_, "rows " + std::to_string(stride) + " " + std::to_string(maxRows));
-        return p;
-    };
     const bool isUnplanned = !scheme_.isFixed() && !scene_.every;
     const long long planned = marchGrid(scene_, scheme_, step).steps;
-    Recording p = record(isUnplanned ? 1 : RowSampler::stride(planned), isUnplanned ? heldRows : 0);
+    Recording p = record(reference, hasCompanion, isUnplanned ? 1 : RowSampler::stride(planned),
+                         isUnplanned ? heldRows : 0, stop);
     SchemeResult result = std::move(p.result);
     if (isUnplanned) {
         const long long m = RowSampler::stride(result.summary.steps);
-        if (p.hasOverflown) {
-            result = std::move(record(m, 0).result);
-        } else if (m > 1) {
-            for (Column& c : result.trajectory.columns)
-                c.values = thinned(c.values, static_cast<std::size_t>(m));
-            result.trajectory.nodes = thinned(result.trajectory.nodes, static_cast<std::size_t>(m));
-        }
+        if (p.hasOverflown)
+            result = std::move(record(reference, hasCompanion, m, 0, stop).result);
+        else if (m > 1)
+            thinRows(result.trajectory, static_cast<std::size_t>(m));
     }
     if (hasCompanion) {
         judgeCompanion(result, reference, withoutBar);

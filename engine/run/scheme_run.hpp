@@ -19,6 +19,7 @@ namespace extremal {
 
 class ExactActions;
 class SchemeCheckpoint;
+struct Recording;
 
 class SchemeRun {
 public:
@@ -41,6 +42,8 @@ public:
     std::shared_ptr<const SchemeResult> latest() const;
 
 private:
+    Recording record(const Reference& reference, bool hasCompanion, long long stride, long long maxRows,
+                     const std::stop_token& stop);
     void compute(const Reference& reference, ExactActions* exact, const std::stop_token& stop);
     void publish(const SchemeResult& result);
     void measureOrder(SchemeResult& result, const Reference& reference, const Reference& ofScene,

@@ -100,34 +100,83 @@ double courantLimit(int degree, const Rule<double>& space, double limitInTime) {
     return limitInTime / std::sqrt(most);
 }
 
-Properties describeTent(const Discretization& d) {
-    const TentDegrees degrees = tentDegrees(d.space);
-    Properties p;
-    p.space = text("space", degrees.space) + ", " + text("time", degrees.time);
+/// Degrees that cannot be: sets the reason and what to write in their place. False if they can be.
+bool refuseDegrees(Properties& p, const Discretization& d, const TentDegrees& degrees) {
     if (degrees.space < 1 || degrees.space > FieldNodes::mostDegree || degrees.time < 1 ||
         degrees.time > mostTimeDegree) {
         p.refusal = "degrees go from 1 to " + std::to_string(FieldNodes::mostDegree) + " in space and to " +
                     std::to_string(mostTimeDegree) + " in time";
         p.hint = "\"degree\": {\"space\": 1, \"time\": 1}";
-        return p;
+        return true;
     }
     if (hasOwnFunctions(d.space) && degrees.space != 1) {
         p.refusal = "elements with functions of their own have degree 1 in space";
         p.hint = "\"degree\": {\"space\": 1, \"time\": " + std::to_string(degrees.time) + "}";
-        return p;
+        return true;
     }
+    return false;
+}
+
+/// The same of rules.
+bool refuseRules(Properties& p, const Discretization& d, const TentDegrees& degrees) {
+    for (const auto& [direction, degree] :
+         {std::pair{"space", degrees.space}, std::pair{"time", degrees.time}}) {
+        const Properties own = inDirection(d.quadrature, direction, degree);
+        if (own.refusal.empty()) continue;
+        p.refusal = own.refusal + " in " + direction;
+        p.hint = own.hint;
+        return true;
+    }
+    return false;
+}
+
+/// What is known of the largest step, from the limit of the rule in time.
+void describeStability(Properties& p, const Discretization& d, int degree, const Rule<double>& rule,
+                       double limit) {
+    p.stabilityLimit = limit;
+    const std::string order = "order " + std::to_string(p.claims.order);
+    if (std::isinf(limit)) {
+        p.remark = order + ", stable at every step";
+    } else if (hasOwnFunctions(d.space)) {
+        p.remark = order + " down to the period of the medium";
+    } else if (leastMass(degree, rule) == 0) {
+        p.stabilityLimit = 0;
+        p.instability =
+            "the rule " + ruleName(d.quadrature, "space") +
+            " in space does not see the mass of the wave that alternates from node to node, whose "
+            "frequency is infinite, and the rule " +
+            ruleName(d.quadrature, "time") + " in time is stable up to a finite one alone";
+        p.hint = "midpoint in time, or another rule in space";
+        p.remark = "unstable for every step";
+    } else {
+        p.remark = order + ", stable for c dt/dx up to " + formatNumber(courantLimit(degree, rule, limit), 3);
+    }
+}
+
+/// "leapfrog", "midpoint × trapezoid": the name of the scheme of this space and rules.
+std::string nameOfTent(const Discretization& d, const TentDegrees& degrees, bool isExplicit) {
+    const std::string spaceRule = ruleName(d.quadrature, "space"), timeRule = ruleName(d.quadrature, "time");
+    if (hasOwnFunctions(d.space))
+        return (d.space.text("functions") == "snapshots" ? "snapshots × " : "cell problem × ") + timeRule;
+    if (degrees.space == 1 && degrees.time == 1) {
+        if (spaceRule == "midpoint" && timeRule == "midpoint") return "Preissman box scheme";
+        if (isExplicit) return "leapfrog";
+    }
+    return spaceRule + " × " + timeRule;
+}
+
+Properties describeTent(const Discretization& d) {
+    const TentDegrees degrees = tentDegrees(d.space);
+    Properties p;
+    p.space = text("space", degrees.space) + ", " + text("time", degrees.time);
+    if (refuseDegrees(p, d, degrees)) return p;
     if (hasOwnFunctions(d.space))
         p.space = (d.space.text("functions") == "snapshots" ? "functions from snapshots in space, "
                                                             : "functions of a cell problem in space, ") +
                   text("time", degrees.time);
+    if (refuseRules(p, d, degrees)) return p;
     const Properties space = inDirection(d.quadrature, "space", degrees.space),
                      time = inDirection(d.quadrature, "time", degrees.time);
-    for (const auto& [own, where] : {std::pair{&space, " in space"}, std::pair{&time, " in time"}})
-        if (!own->refusal.empty()) {
-            p.refusal = own->refusal + where;
-            p.hint = own->hint;
-            return p;
-        }
     const Rule<double> rule = ruleIn(d.quadrature, "space", degrees.space);
     p.claims.order = std::min(space.claims.order, time.claims.order);
     p.orderInSpace = space.claims.order;
@@ -138,37 +187,11 @@ Properties describeTent(const Discretization& d) {
     p.shortName = "T" + std::to_string(p.claims.order);
     p.prefix = "Fields ";
     const TimeTable table = timeTable(d);
-    const double limit = timeLimit(table);
-    p.stabilityLimit = limit;
     const bool isLumped = !hasOwnFunctions(d.space) && rule.size() == degrees.space + 1 &&
                           rule.c.front() == 0 && rule.c.back() == 1;
     p.isExplicit = table.isTrapezoid() && isLumped;
-    const std::string spaceRule = ruleName(d.quadrature, "space"), timeRule = ruleName(d.quadrature, "time");
-    if (degrees.space == 1 && degrees.time == 1) {
-        if (p.isExplicit) p.knownAs = "leapfrog";
-        if (spaceRule == "midpoint" && timeRule == "midpoint") p.knownAs = "Preissman box scheme";
-    }
-    if (std::isinf(limit)) {
-        p.remark = "order " + std::to_string(p.claims.order) + ", stable at every step";
-    } else if (!hasOwnFunctions(d.space) && leastMass(degrees.space, rule) == 0) {
-        p.stabilityLimit = 0;
-        p.instability =
-            "the rule " + spaceRule +
-            " in space does not see the mass of the wave that alternates from node to node, whose "
-            "frequency is infinite, and the rule " +
-            timeRule + " in time is stable up to a finite one alone";
-        p.hint = "midpoint in time, or another rule in space";
-        p.remark = "unstable for every step";
-    } else if (hasOwnFunctions(d.space)) {
-        p.remark = "order " + std::to_string(p.claims.order) + " down to the period of the medium";
-    } else {
-        p.remark = "order " + std::to_string(p.claims.order) + ", stable for c dt/dx up to " +
-                   formatNumber(courantLimit(degrees.space, rule, limit), 3);
-    }
-    if (hasOwnFunctions(d.space))
-        p.knownAs =
-            (d.space.text("functions") == "snapshots" ? "snapshots × " : "cell problem × ") + timeRule;
-    if (p.knownAs.empty()) p.knownAs = spaceRule + " × " + timeRule;
+    describeStability(p, d, degrees.space, rule, timeLimit(table));
+    p.knownAs = nameOfTent(d, degrees, p.isExplicit);
     return p;
 }
 
