@@ -13,18 +13,18 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/view/axes.hpp"
+#include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
+#include "ui/compare/case_preview.hpp"
+#include "ui/compare/plot_edits.hpp"
+#include "ui/compare/starting.hpp"
 #include "ui/plots/plot_group.hpp"
 #include "ui/plots/plot_widget.hpp"
-#include "ui/base/background.hpp"
-#include "ui/compare/case_preview.hpp"
+#include "ui/stage/stage_widget.hpp"
 #include "ui/workspace/playback.hpp"
-#include "ui/compare/plot_edits.hpp"
 #include "ui/workspace/run_control.hpp"
 #include "ui/workspace/scheme_edits.hpp"
-#include "ui/compare/starting.hpp"
 #include "ui/workspace/workspace.hpp"
-#include "ui/stage/stage_widget.hpp"
 
 namespace extremal {
 namespace {
@@ -60,10 +60,16 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     cardLayout_->setContentsMargins(0, 0, 2, 0);
     scroll->setWidget(inside_);
     layout->addWidget(scroll);
+    makeStage();
+    connectState();
+}
 
+CompareView::~CompareView() = default;
+
+void CompareView::makeStage() {
     stageCard_ = new Card(tr("Stage"), inside_);
     stage_ = new StageWidget;
-    stage_->setTheme(theme);
+    stage_->setTheme(*theme_);
     stage_->setAccessibleName(tr("Stage"));
     stage_->setFocusPolicy(Qt::ClickFocus);
     stageCard_->body()->addWidget(stage_, 1);
@@ -71,7 +77,9 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     makeMaximizable(*stageCard_);
     connectDrawing();
     connectPreview();
+}
 
+void CompareView::connectState() {
     connect(&workspace_, &Workspace::opened, this, [this] {  // another scene has no zoom yet
         arranged_.clear();
         for (auto& s : slots_) discard(std::move(s));
@@ -102,8 +110,6 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     });
     connect(group_, &PlotGroup::saveFailed, this, &CompareView::saveFailed);
 }
-
-CompareView::~CompareView() = default;
 
 QString CompareView::selectedLabel() const {
     const int i = workspace_.selectedScheme();

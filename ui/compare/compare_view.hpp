@@ -95,6 +95,8 @@ private:
         std::shared_ptr<const Comparison> shown = {};  ///< what the plot shows the view of
         View shownView = {};
     };
+    void makeStage();
+    void connectState();
     void rebuild();  ///< another set of views
     void discard(std::unique_ptr<Slot> slot);
     Slot& makeSlot(const View& view);

@@ -17,16 +17,16 @@
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/resolve.hpp"
+#include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/combo_box.hpp"
+#include "ui/base/notices.hpp"
+#include "ui/base/theme.hpp"
+#include "ui/base/tool_window.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/problem_text.hpp"
-#include "ui/base/tool_window.hpp"
 #include "ui/plots/plot_widget.hpp"
-#include "ui/base/background.hpp"
-#include "ui/base/notices.hpp"
 #include "ui/workspace/scheme_edits.hpp"
-#include "ui/base/theme.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
@@ -131,29 +131,6 @@ void OwnWindow::makeForm() {
     example_->setObjectName("ownExample");
     example_->setWordWrap(true);
     column->addWidget(example_);
-    const auto addChoice = [&](const QString& caption, const char* name) {
-        auto* box = new ComboBox;
-        box->setObjectName(name);
-        box->setAccessibleName(caption);
-        box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-        box->setMinimumContentsLength(10);
-        column->addWidget(makeLabel(caption, "caption"));
-        column->addWidget(box);
-        connect(box, &QComboBox::activated, this, &OwnWindow::changed);
-        return box;
-    };
-    const auto addText = [&](auto& fields, const QString& caption, const char* name, const QString& example) {
-        auto* edit = new FormulaEdit;
-        edit->setObjectName(name);
-        edit->setAccessibleName(caption);
-        edit->setPlaceholderText(example);
-        auto* label = makeLabel(caption, "caption");
-        column->addWidget(label);
-        column->addWidget(edit);
-        fields.emplace_back(label, edit);
-        connect(edit, &QPlainTextEdit::textChanged, this, &OwnWindow::changed);
-        return edit;
-    };
     space_ = addChoice(tr("Space"), "ownSpace");
     functions_ =
         addText(ofSpace_, tr("Functions of tau, one per line"), "ownFunctionTexts", "1\ntau\ncos(z*tau)");
@@ -174,6 +151,37 @@ void OwnWindow::makeForm() {
         label->setTextFormat(Qt::RichText);
         column->addWidget(label);
     }
+    addButtons();
+    column->addStretch();
+}
+
+QComboBox* OwnWindow::addChoice(const QString& caption, const char* name) {
+    auto* box = new ComboBox;
+    box->setObjectName(name);
+    box->setAccessibleName(caption);
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(10);
+    form_->layout()->addWidget(makeLabel(caption, "caption"));
+    form_->layout()->addWidget(box);
+    connect(box, &QComboBox::activated, this, &OwnWindow::changed);
+    return box;
+}
+
+FormulaEdit* OwnWindow::addText(Fields& fields, const QString& caption, const char* name,
+                                const QString& example) {
+    auto* edit = new FormulaEdit;
+    edit->setObjectName(name);
+    edit->setAccessibleName(caption);
+    edit->setPlaceholderText(example);
+    auto* label = makeLabel(caption, "caption");
+    form_->layout()->addWidget(label);
+    form_->layout()->addWidget(edit);
+    fields.emplace_back(label, edit);
+    connect(edit, &QPlainTextEdit::textChanged, this, &OwnWindow::changed);
+    return edit;
+}
+
+void OwnWindow::addButtons() {
     auto* buttons = new QHBoxLayout;
     keep_ = new QPushButton(tr("Keep..."));
     keep_->setObjectName("ownKeep");
@@ -184,8 +192,7 @@ void OwnWindow::makeForm() {
     buttons->addStretch();
     buttons->addWidget(keep_);
     buttons->addWidget(apply_);
-    column->addLayout(buttons);
-    column->addStretch();
+    qobject_cast<QVBoxLayout*>(form_->layout())->addLayout(buttons);
     connect(apply_, &QPushButton::clicked, this, &OwnWindow::apply);
     connect(keep_, &QPushButton::clicked, this, [this] { emit keepRequested(scheme()); });
 }

@@ -48,7 +48,12 @@ signals:
     void keepRequested(const Value& scheme);  ///< in the user's catalogue
 
 private:
+    using Fields = std::vector<std::pair<QLabel*, FormulaEdit*>>;  ///< with their captions
+
     void makeForm();
+    QComboBox* addChoice(const QString& caption, const char* name);
+    FormulaEdit* addText(Fields& fields, const QString& caption, const char* name, const QString& example);
+    void addButtons();
     void fill();
     void fillRules();
     void changed();
@@ -66,8 +71,8 @@ private:
     FormulaEdit *functions_, *names_, *knots_, *nodes_, *weights_;
     QPushButton *apply_, *keep_;
     PlotWidget* plots_[4];
-    Card* cards_[4];                                                  ///< of the plots
-    std::vector<std::pair<QLabel*, FormulaEdit*>> ofSpace_, ofRule_;  ///< fields with their captions
+    Card* cards_[4];  ///< of the plots
+    Fields ofSpace_, ofRule_;
     QTimer delay_;
     Value original_;  ///< the scheme as the scene has it
     Value opened_;    ///< what the fields said when they were filled

@@ -10,13 +10,13 @@
 #include <QVBoxLayout>
 
 #include "engine/core/expression.hpp"
-#include "ui/base/card.hpp"
-#include "ui/panels/problem_text.hpp"
-#include "ui/panels/formula_edit.hpp"
-#include "ui/workspace/lagrangian_edits.hpp"
-#include "ui/panels/parameter_table.hpp"
 #include "ui/base/background.hpp"
+#include "ui/base/card.hpp"
 #include "ui/base/theme.hpp"
+#include "ui/panels/formula_edit.hpp"
+#include "ui/panels/parameter_table.hpp"
+#include "ui/panels/problem_text.hpp"
+#include "ui/workspace/lagrangian_edits.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
@@ -49,45 +49,8 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(5);
-    column->addWidget(makeLabel(tr("Lagrangian L"), "strong"));
-    text_ = new FormulaEdit;
-    text_->setObjectName("field.lagrangian");
-    text_->setAccessibleName(tr("Lagrangian"));
-    text_->setToolTip(
-        tr("L as a formula: velocities are x_t or dot(x), time is t. Lines \"slow: ...\" make terms that may "
-           "have "
-           "rules of their own. Handbook: Typing a Lagrangian."));
-    column->addWidget(text_);
-    problem_ = makeLinkLabel("caption");
-    problem_->setObjectName("problem.lagrangian");
-    problem_->setProperty("problem", true);
-    problem_->hide();
-    column->addWidget(problem_);
-    equations_ = makeLabel({}, "body");
-    equations_->setObjectName("equations");
-    equations_->setAccessibleName(tr("Equations of motion"));
-    equations_->setToolTip(tr("The Euler-Lagrange equations"));
-    equations_->setWordWrap(true);
-    equations_->setTextFormat(Qt::RichText);
-    equations_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    column->addWidget(equations_);
-
-    auto* row = new QHBoxLayout;
-    row->setSpacing(6);
-    coordinates_ = new QLineEdit;
-    coordinates_->setObjectName("field.coordinates");
-    coordinates_->setAccessibleName(tr("Coordinates"));
-    coordinates_->setToolTip(
-        tr("Names separated by commas. A renamed coordinate is renamed in the formula as well."));
-    auto* add = new QToolButton;
-    add->setObjectName("addCoordinate");
-    add->setText("+");
-    add->setAccessibleName(tr("Add a coordinate"));
-    add->setToolTip(tr("Adds a coordinate and its kinetic energy"));
-    row->addWidget(makeLabel(tr("coordinates"), "body"));
-    row->addWidget(coordinates_, 1);
-    row->addWidget(add);
-    column->addLayout(row);
+    makeFormula(*column);
+    makeCoordinates(*column);
     parameters_ = new ParameterTable(
         workspace, [this](const EditsOfScene& edits, const QString& what, const FollowingText& follow) {
             return change(edits, what, follow);
@@ -103,11 +66,6 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
         stop_.request_stop();
         debounce_.start();
     });
-    connect(coordinates_, &QLineEdit::editingFinished, this, &LagrangianEditor::changeCoordinates);
-    connect(add, &QToolButton::clicked, this, [this] {
-        if (coordinates_->isModified()) changeCoordinates();
-        change(editsForNewCoordinate, tr("Add a coordinate"), [](const std::string& typed) { return typed; });
-    });
     connect(&workspace_, &Workspace::sceneChanged, this, &LagrangianEditor::refresh);
     connect(&workspace_, &Workspace::draftsChanged, this, &LagrangianEditor::refresh);
     connect(&workspace_, &Workspace::opened, this, [this] {
@@ -117,6 +75,55 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
 }
 
 LagrangianEditor::~LagrangianEditor() { stop_.request_stop(); }
+
+/// The text, what is wrong with it, and the equations of motion that come of it.
+void LagrangianEditor::makeFormula(QVBoxLayout& column) {
+    column.addWidget(makeLabel(tr("Lagrangian L"), "strong"));
+    text_ = new FormulaEdit;
+    text_->setObjectName("field.lagrangian");
+    text_->setAccessibleName(tr("Lagrangian"));
+    text_->setToolTip(
+        tr("L as a formula: velocities are x_t or dot(x), time is t. Lines \"slow: ...\" make terms that may "
+           "have rules of their own. Handbook: Typing a Lagrangian."));
+    column.addWidget(text_);
+    problem_ = makeLinkLabel("caption");
+    problem_->setObjectName("problem.lagrangian");
+    problem_->setProperty("problem", true);
+    problem_->hide();
+    column.addWidget(problem_);
+    equations_ = makeLabel({}, "body");
+    equations_->setObjectName("equations");
+    equations_->setAccessibleName(tr("Equations of motion"));
+    equations_->setToolTip(tr("The Euler-Lagrange equations"));
+    equations_->setWordWrap(true);
+    equations_->setTextFormat(Qt::RichText);
+    equations_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    column.addWidget(equations_);
+}
+
+void LagrangianEditor::makeCoordinates(QVBoxLayout& column) {
+    auto* row = new QHBoxLayout;
+    row->setSpacing(6);
+    coordinates_ = new QLineEdit;
+    coordinates_->setObjectName("field.coordinates");
+    coordinates_->setAccessibleName(tr("Coordinates"));
+    coordinates_->setToolTip(
+        tr("Names separated by commas. A renamed coordinate is renamed in the formula as well."));
+    auto* add = new QToolButton;
+    add->setObjectName("addCoordinate");
+    add->setText("+");
+    add->setAccessibleName(tr("Add a coordinate"));
+    add->setToolTip(tr("Adds a coordinate and its kinetic energy"));
+    row->addWidget(makeLabel(tr("coordinates"), "body"));
+    row->addWidget(coordinates_, 1);
+    row->addWidget(add);
+    column.addLayout(row);
+    connect(coordinates_, &QLineEdit::editingFinished, this, &LagrangianEditor::changeCoordinates);
+    connect(add, &QToolButton::clicked, this, [this] {
+        if (coordinates_->isModified()) changeCoordinates();
+        change(editsForNewCoordinate, tr("Add a coordinate"), [](const std::string& typed) { return typed; });
+    });
+}
 
 /// The formula as typed, with the names of the scene or of what was last tried.
 typed::Formula LagrangianEditor::formulaNow() const {

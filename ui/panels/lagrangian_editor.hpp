@@ -19,6 +19,7 @@
 class QLabel;
 class QLineEdit;
 class QToolButton;
+class QVBoxLayout;
 
 namespace extremal {
 
@@ -35,6 +36,8 @@ public:
     void refresh();
 
 private:
+    void makeFormula(QVBoxLayout& column);
+    void makeCoordinates(QVBoxLayout& column);
     void check();
     void take(const std::string& text, const typed::Examination& found);
     void showProblem();

@@ -76,6 +76,25 @@ void makeRoomForMarks(FigurePlot::Shared& s, int height) {
     s.view.setFitted(PlotAxis::y, {r.low, high});
 }
 
+/// Ranges, and the ticks for which a plot of this size has room; then the sizes of its margins.
+void layOut(FigurePlot::Shared& s, double width, double height) {
+    const auto prepareAxis = [&](QCPAxis& axis, const Axis& of, PlotRange range, double length) {
+        axis.setRange(range.low, range.high);
+        const int room = roomFor(length, axis.orientation() == Qt::Vertical, of.isLog);
+        constexpr double roomOfName = 22;
+        if (of.ticks.empty())
+            axis.setTicker(of.isLog ? logTicker(room) : linearTicker(room));
+        else
+            axis.setTicker(namedTicker(of.ticks, roomOfName * (axis.range().size() / std::max(1.0, length))));
+        axis.grid()->setVisible(s.figure.axes == AxisStyle::scales && of.ticks.empty());
+    };
+    prepareAxis(*s.plot.xAxis, s.figure.x, s.view.range(PlotAxis::x), width);
+    prepareAxis(*s.plot.yAxis, s.figure.y, s.view.range(PlotAxis::y), height);
+    s.plot.plotLayout()->update(QCPLayoutElement::upPreparation);
+    s.plot.plotLayout()->update(QCPLayoutElement::upMargins);
+    s.plot.plotLayout()->update(QCPLayoutElement::upLayout);
+}
+
 }  // namespace
 
 FigurePlot::FigurePlot(QCustomPlot& plot, const Theme& theme)
@@ -168,31 +187,12 @@ void FigurePlot::prepare(QSize size) {
     s.plot.axisRect()->setMinimumMargins(margins);
     const QRect before = s.plot.viewport();
     s.plot.setViewport(QRect(QPoint(0, 0), size));
-    const auto apply = [&](double width, double height) {
-        const auto set = [](QCPAxis& axis, PlotRange r) { axis.setRange(r.low, r.high); };
-        set(x, s.view.range(PlotAxis::x));
-        set(y, s.view.range(PlotAxis::y));
-        const int xRoom = roomFor(width, false, s.figure.x.isLog),
-                  yRoom = roomFor(height, true, s.figure.y.isLog);
-        const auto ticker = [](const Axis& axis, int room, double perPixel) -> QSharedPointer<QCPAxisTicker> {
-            constexpr double roomOfName = 22;
-            if (!axis.ticks.empty()) return namedTicker(axis.ticks, roomOfName * perPixel);
-            return axis.isLog ? logTicker(room) : linearTicker(room);
-        };
-        x.setTicker(ticker(s.figure.x, xRoom, x.range().size() / std::max(1.0, width)));
-        y.setTicker(ticker(s.figure.y, yRoom, y.range().size() / std::max(1.0, height)));
-        x.grid()->setVisible(s.figure.axes == AxisStyle::scales && s.figure.x.ticks.empty());
-        y.grid()->setVisible(s.figure.axes == AxisStyle::scales && s.figure.y.ticks.empty());
-        s.plot.plotLayout()->update(QCPLayoutElement::upPreparation);
-        s.plot.plotLayout()->update(QCPLayoutElement::upMargins);
-        s.plot.plotLayout()->update(QCPLayoutElement::upLayout);
-    };
-    apply(size.width() - 80, size.height() - 50);  // a guess, only to measure the margins
+    layOut(s, size.width() - 80, size.height() - 50);  // a guess, only to measure the margins
     const QRect rect = s.plot.axisRect()->rect();
     if (s.figure.aspect == Aspect::equal && rect.width() > 0 && rect.height() > 0)
         makeScalesEqual(s.view, rect.size());
     makeRoomForMarks(s, rect.height());
-    apply(rect.width(), rect.height());
+    layOut(s, rect.width(), rect.height());
     s.plot.setViewport(before);
 }
 

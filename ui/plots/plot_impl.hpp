@@ -36,7 +36,7 @@ struct PlotWidget::Impl {
     Theme theme;
     QPushButton* chip;
     QPointer<HoverTable> table;  ///< which lives in the window; of all values at the pointer
-    enum class Drag { none, maybe, pan, box, cursor, level, handle } drag = Drag::none;
+    enum class Drag { none, maybe, pan, box, level, handle } drag = Drag::none;
     QPointF press, last;
     int leftMargin = 0;
     bool isClickable = false;

@@ -87,6 +87,17 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    void zoomAt(const QWheelEvent& wheel);
+    bool press(const QMouseEvent& mouse);
+    void moveTo(QPointF at);
+    void panTo(QPointF at);
+    bool release(const QMouseEvent& mouse);
+    void zoomToBox();
+    void click(QPointF at);
+    void afterZoom();
+    void hoverAt(QPointF at);
+    void leaveCell();
+    void clearHover();
     void showValues(QPointF at, const std::string& nearest);
     void openMenu(const QContextMenuEvent& context);
     struct Impl;

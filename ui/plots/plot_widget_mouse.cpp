@@ -10,156 +10,19 @@ namespace extremal {
 
 bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
     if (watched != impl_->plot) return QWidget::eventFilter(watched, event);
-    Impl& s = *impl_;
-    ViewState& view = s.content->view();
-    const auto afterZoom = [&] {
-        s.chip->setVisible(true);
-        if (s.isTime() && view.isUserChosen(PlotAxis::x)) emit timeRangeChanged(view.range(PlotAxis::x));
-        s.replot();
-    };
-    const auto leaveCell = [&] {
-        if (!s.content->cursors().hoverCell) return;
-        s.content->cursors().hoverCell.reset();
-        emit cellLeft();
-    };
-    const auto clearHover = [&] {
-        if (s.table) s.table->hide();
-        leaveCell();
-        if (s.content->cursors().hoverTime) emit hoverMoved(std::nullopt);
-        if (s.content->cursors().hoverText.isEmpty()) return;
-        s.content->cursors().hoverText.clear();
-        s.replotCursor();
-    };
     switch (event->type()) {
-        case QEvent::Wheel: {
-            auto* wheel = static_cast<QWheelEvent*>(event);
-            const QPointF at = wheel->position();
-            const auto [onX, onY] = s.axesAt(at);
-            const double factor = std::pow(0.85, wheel->angleDelta().y() / 120.0);
-            const PixelMap map = s.content->pixelMap();
-            view.remember();
-            if (onX) view.zoom(PlotAxis::x, factor, valueAtPixel(map, PlotAxis::x, at));
-            if (onY) view.zoom(PlotAxis::y, factor, valueAtPixel(map, PlotAxis::y, at));
-            afterZoom();
+        case QEvent::Wheel:
+            zoomAt(*static_cast<QWheelEvent*>(event));
             return true;
-        }
-        case QEvent::MouseButtonPress: {
-            auto* mouse = static_cast<QMouseEvent*>(event);
-            setFocus(Qt::MouseFocusReason);
-            if (mouse->button() != Qt::LeftButton) return false;
-            s.press = s.last = mouse->position();
-            s.drag = mouse->modifiers() & Qt::ControlModifier ? Impl::Drag::box
-                     : s.isOnHandle(s.press)                  ? Impl::Drag::handle
-                     : s.isOnLevel(s.press)                   ? Impl::Drag::level
-                                                              : Impl::Drag::maybe;
-            clearHover();
+        case QEvent::MouseButtonPress:
+            return press(*static_cast<QMouseEvent*>(event));
+        case QEvent::MouseMove:
+            moveTo(static_cast<QMouseEvent*>(event)->position());
             return true;
-        }
-        case QEvent::MouseMove: {
-            auto* mouse = static_cast<QMouseEvent*>(event);
-            const QPointF at = mouse->position();
-            const PixelMap map = s.content->pixelMap();
-            if (s.drag == Impl::Drag::maybe && QLineF(s.press, at).length() > dragThreshold) {
-                view.remember();
-                s.drag = Impl::Drag::pan;
-                s.plot->setCursor(Qt::ClosedHandCursor);
-            }
-            if (s.drag == Impl::Drag::handle) {
-                const QPointF place = s.placeAt(at);
-                s.content->cursors().handle = place;
-                s.replotCursor();
-                emit handleMoved(place.x(), place.y());
-            } else if (s.drag == Impl::Drag::level) {
-                emit levelMoved(valueAtPixel(
-                    map, PlotAxis::y, {at.x(), std::clamp(at.y(), map.rect.top(), map.rect.bottom())}));
-            } else if (s.drag == Impl::Drag::pan) {
-                const auto [onX, onY] = s.axesAt(s.press);
-                if (onX)
-                    view.pan(PlotAxis::x, valueAtPixel(map, PlotAxis::x, s.last),
-                             valueAtPixel(map, PlotAxis::x, at));
-                if (onY)
-                    view.pan(PlotAxis::y, valueAtPixel(map, PlotAxis::y, s.last),
-                             valueAtPixel(map, PlotAxis::y, at));
-                s.last = at;
-                afterZoom();
-            } else if (s.drag == Impl::Drag::box) {
-                s.content->cursors().box = QRectF(s.press, at).normalized();
-                s.replotCursor();
-            } else if (s.drag == Impl::Drag::none) {
-                PlotCursors& c = s.content->cursors();
-                s.plot->setCursor(s.isOnHandle(at)  ? Qt::SizeAllCursor
-                                  : s.isOnLevel(at) ? Qt::SizeVerCursor
-                                                    : Qt::ArrowCursor);
-                if (const auto cell = s.cellAt(at)) {
-                    c.hoverText = QString::fromStdString(cell->text);
-                    c.hoverPoint = at;
-                    c.hoverCell = s.rectOf(*cell);
-                    s.replotCursor();
-                    emit cellHovered(cell->x, cell->y);
-                    return true;
-                }
-                const auto hit = s.content->hit(at, hoverReach);
-                leaveCell();
-                if (s.isTime() && map.rect.contains(at) && !figure().series().empty()) {
-                    showValues(at, hit ? figure().series()[hit->series].label : std::string());
-                    return true;
-                }
-                if (!hit) {
-                    clearHover();
-                    return true;
-                }
-                const Series& series = figure().series()[hit->series];
-                c.hoverText = QStringLiteral("%1\n%2, %3")
-                                  .arg(QString::fromStdString(seriesName(series)))
-                                  .arg(series.x[hit->row], 0, 'g', 6)
-                                  .arg(series.y[hit->row], 0, 'g', 6);
-                c.hoverPoint = hit->at;
-                c.hoverColor = series.shade ? valueColour(*series.shade) : s.theme.series(series.style).color;
-                s.replotCursor();
-            }
-            return true;
-        }
-        case QEvent::MouseButtonRelease: {
-            auto* mouse = static_cast<QMouseEvent*>(event);
-            if (mouse->button() != Qt::LeftButton) return false;
-            const PixelMap map = s.content->pixelMap();
-            const Impl::Drag was = s.drag;
-            s.drag = Impl::Drag::none;
-            s.plot->unsetCursor();
-            if (was == Impl::Drag::box) {
-                const QRectF box = s.content->cursors().box.value_or(QRectF()).intersected(map.rect);
-                s.content->cursors().box.reset();
-                if (box.width() > dragThreshold && box.height() > dragThreshold) {
-                    view.remember();
-                    view.choose(PlotAxis::x, {valueAtPixel(map, PlotAxis::x, box.topLeft()),
-                                              valueAtPixel(map, PlotAxis::x, box.bottomRight())});
-                    view.choose(PlotAxis::y, {valueAtPixel(map, PlotAxis::y, box.bottomRight()),
-                                              valueAtPixel(map, PlotAxis::y, box.topLeft())});
-                    afterZoom();
-                } else {
-                    s.replotCursor();
-                }
-            } else if (was == Impl::Drag::level) {
-                const bool isClick = QLineF(s.press, mouse->position()).length() <= dragThreshold;
-                if (const auto row = s.rowAt(mouse->position()); row && isClick) emit rowChosen(*row);
-            } else if (was == Impl::Drag::maybe) {
-                if (const auto cell = s.cellAt(mouse->position()))
-                    emit cellChosen(cell->x, cell->y);
-                else if (const auto row = s.rowAt(mouse->position()))
-                    emit rowChosen(*row);
-                else if (const auto hit =
-                             s.content->hit(mouse->position(), s.isClickable ? dragThreshold : hoverReach);
-                         hit && figure().series()[hit->series].style >= 0)
-                    emit pointClicked(figure().series()[hit->series].style);
-                else if (s.isClickable && map.rect.contains(mouse->position()))
-                    s.waitForSecondClick(s.placeAt(mouse->position()), *this);
-                if (s.isTime() && map.rect.contains(mouse->position()))
-                    emit cursorMoved(valueAtPixel(map, PlotAxis::x, mouse->position()));
-            }
-            return true;
-        }
+        case QEvent::MouseButtonRelease:
+            return release(*static_cast<QMouseEvent*>(event));
         case QEvent::MouseButtonDblClick:
-            ++s.clicks;
+            ++impl_->clicks;
             fit();
             return true;
         case QEvent::Leave:
@@ -171,6 +34,186 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
         default:
             return QWidget::eventFilter(watched, event);
     }
+}
+
+void PlotWidget::afterZoom() {
+    Impl& s = *impl_;
+    const ViewState& view = s.content->view();
+    s.chip->setVisible(true);
+    if (s.isTime() && view.isUserChosen(PlotAxis::x)) emit timeRangeChanged(view.range(PlotAxis::x));
+    s.replot();
+}
+
+void PlotWidget::leaveCell() {
+    PlotCursors& cursors = impl_->content->cursors();
+    if (!cursors.hoverCell) return;
+    cursors.hoverCell.reset();
+    emit cellLeft();
+}
+
+void PlotWidget::clearHover() {
+    Impl& s = *impl_;
+    PlotCursors& cursors = s.content->cursors();
+    if (s.table) s.table->hide();
+    leaveCell();
+    if (cursors.hoverTime) emit hoverMoved(std::nullopt);
+    if (cursors.hoverText.isEmpty()) return;
+    cursors.hoverText.clear();
+    s.replotCursor();
+}
+
+void PlotWidget::zoomAt(const QWheelEvent& wheel) {
+    Impl& s = *impl_;
+    ViewState& view = s.content->view();
+    const QPointF at = wheel.position();
+    const auto [onX, onY] = s.axesAt(at);
+    const double factor = std::pow(0.85, wheel.angleDelta().y() / 120.0);
+    const PixelMap map = s.content->pixelMap();
+    view.remember();
+    if (onX) view.zoom(PlotAxis::x, factor, valueAtPixel(map, PlotAxis::x, at));
+    if (onY) view.zoom(PlotAxis::y, factor, valueAtPixel(map, PlotAxis::y, at));
+    afterZoom();
+}
+
+/// What a drag from here will do.
+bool PlotWidget::press(const QMouseEvent& mouse) {
+    Impl& s = *impl_;
+    setFocus(Qt::MouseFocusReason);
+    if (mouse.button() != Qt::LeftButton) return false;
+    s.press = s.last = mouse.position();
+    s.drag = mouse.modifiers() & Qt::ControlModifier ? Impl::Drag::box
+             : s.isOnHandle(s.press)                 ? Impl::Drag::handle
+             : s.isOnLevel(s.press)                  ? Impl::Drag::level
+                                                     : Impl::Drag::maybe;
+    clearHover();
+    return true;
+}
+
+/// The pointer is somewhere else: with the button down it drags, else it hovers.
+void PlotWidget::moveTo(QPointF at) {
+    Impl& s = *impl_;
+    if (s.drag == Impl::Drag::maybe && QLineF(s.press, at).length() > dragThreshold) {
+        s.content->view().remember();
+        s.drag = Impl::Drag::pan;
+        s.plot->setCursor(Qt::ClosedHandCursor);
+    }
+    switch (s.drag) {
+        case Impl::Drag::handle: {
+            const QPointF place = s.placeAt(at);
+            s.content->cursors().handle = place;
+            s.replotCursor();
+            emit handleMoved(place.x(), place.y());
+            break;
+        }
+        case Impl::Drag::level: {
+            const PixelMap map = s.content->pixelMap();
+            emit levelMoved(valueAtPixel(map, PlotAxis::y,
+                                         {at.x(), std::clamp(at.y(), map.rect.top(), map.rect.bottom())}));
+            break;
+        }
+        case Impl::Drag::pan:
+            panTo(at);
+            break;
+        case Impl::Drag::box:
+            s.content->cursors().box = QRectF(s.press, at).normalized();
+            s.replotCursor();
+            break;
+        case Impl::Drag::none:
+            hoverAt(at);
+            break;
+        case Impl::Drag::maybe:
+            break;
+    }
+}
+
+void PlotWidget::panTo(QPointF at) {
+    Impl& s = *impl_;
+    ViewState& view = s.content->view();
+    const PixelMap map = s.content->pixelMap();
+    const auto [onX, onY] = s.axesAt(s.press);
+    if (onX)
+        view.pan(PlotAxis::x, valueAtPixel(map, PlotAxis::x, s.last), valueAtPixel(map, PlotAxis::x, at));
+    if (onY)
+        view.pan(PlotAxis::y, valueAtPixel(map, PlotAxis::y, s.last), valueAtPixel(map, PlotAxis::y, at));
+    s.last = at;
+    afterZoom();
+}
+
+/// Tells what is under the pointer: a cell of a map, else all values at its time, else the nearest point.
+void PlotWidget::hoverAt(QPointF at) {
+    Impl& s = *impl_;
+    PlotCursors& cursors = s.content->cursors();
+    s.plot->setCursor(s.isOnHandle(at)  ? Qt::SizeAllCursor
+                      : s.isOnLevel(at) ? Qt::SizeVerCursor
+                                        : Qt::ArrowCursor);
+    if (const auto cell = s.cellAt(at)) {
+        cursors.hoverText = QString::fromStdString(cell->text);
+        cursors.hoverPoint = at;
+        cursors.hoverCell = s.rectOf(*cell);
+        s.replotCursor();
+        emit cellHovered(cell->x, cell->y);
+        return;
+    }
+    const auto hit = s.content->hit(at, hoverReach);
+    leaveCell();
+    if (s.isTime() && s.content->pixelMap().rect.contains(at) && !figure().series().empty())
+        return showValues(at, hit ? figure().series()[hit->series].label : std::string());
+    if (!hit) return clearHover();
+    const Series& series = figure().series()[hit->series];
+    cursors.hoverText = QStringLiteral("%1\n%2, %3")
+                            .arg(QString::fromStdString(seriesName(series)))
+                            .arg(series.x[hit->row], 0, 'g', 6)
+                            .arg(series.y[hit->row], 0, 'g', 6);
+    cursors.hoverPoint = hit->at;
+    cursors.hoverColor = series.shade ? valueColour(*series.shade) : s.theme.series(series.style).color;
+    s.replotCursor();
+}
+
+bool PlotWidget::release(const QMouseEvent& mouse) {
+    Impl& s = *impl_;
+    if (mouse.button() != Qt::LeftButton) return false;
+    const Impl::Drag was = std::exchange(s.drag, Impl::Drag::none);
+    s.plot->unsetCursor();
+    if (was == Impl::Drag::box) {
+        zoomToBox();
+    } else if (was == Impl::Drag::level) {
+        const bool isClick = QLineF(s.press, mouse.position()).length() <= dragThreshold;
+        if (const auto row = s.rowAt(mouse.position()); row && isClick) emit rowChosen(*row);
+    } else if (was == Impl::Drag::maybe) {
+        click(mouse.position());
+    }
+    return true;
+}
+
+void PlotWidget::zoomToBox() {
+    Impl& s = *impl_;
+    ViewState& view = s.content->view();
+    const PixelMap map = s.content->pixelMap();
+    const QRectF box = s.content->cursors().box.value_or(QRectF()).intersected(map.rect);
+    s.content->cursors().box.reset();
+    if (box.width() <= dragThreshold || box.height() <= dragThreshold) return s.replotCursor();
+    view.remember();
+    view.choose(PlotAxis::x, {valueAtPixel(map, PlotAxis::x, box.topLeft()),
+                              valueAtPixel(map, PlotAxis::x, box.bottomRight())});
+    view.choose(PlotAxis::y, {valueAtPixel(map, PlotAxis::y, box.bottomRight()),
+                              valueAtPixel(map, PlotAxis::y, box.topLeft())});
+    afterZoom();
+}
+
+/// Chooses what is there: a cell, a row of a study, a scheme, or a place; over a time axis the time as well.
+void PlotWidget::click(QPointF at) {
+    Impl& s = *impl_;
+    const PixelMap map = s.content->pixelMap();
+    if (const auto cell = s.cellAt(at))
+        emit cellChosen(cell->x, cell->y);
+    else if (const auto row = s.rowAt(at))
+        emit rowChosen(*row);
+    else if (const auto hit = s.content->hit(at, s.isClickable ? dragThreshold : hoverReach);
+             hit && figure().series()[hit->series].style >= 0)
+        emit pointClicked(figure().series()[hit->series].style);
+    else if (s.isClickable && map.rect.contains(at))
+        s.waitForSecondClick(s.placeAt(at), *this);
+    if (s.isTime() && map.rect.contains(at)) emit cursorMoved(valueAtPixel(map, PlotAxis::x, at));
 }
 
 /// All values at the time under the pointer, beside it; in the other plots a line marks the time.

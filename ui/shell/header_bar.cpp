@@ -10,9 +10,9 @@
 #include "ui/base/card.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/seek_slider.hpp"
+#include "ui/study/background_sweep.hpp"
 #include "ui/workspace/run_control.hpp"
 #include "ui/workspace/workspace.hpp"
-#include "ui/study/background_sweep.hpp"
 
 namespace extremal {
 namespace {
@@ -39,7 +39,22 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSwee
     row->addSpacing(6);
     row->addWidget(file_);
     row->addStretch(1);
-    auto* wantedLabel = makeLabel(tr("wanted error"), "caption", this);
+    makeWanted(*row);
+    row->addSpacing(8);
+    makeButtons(*row);
+    connect(&sweep_, &BackgroundSweep::changed, this, &HeaderBar::showChoice);
+    connect(&workspace_, &Workspace::sceneChanged, this, &HeaderBar::showScene);
+    connect(&workspace_, &Workspace::fileChanged, this, &HeaderBar::showScene);
+    connect(&run_, &RunControl::stateChanged, this, &HeaderBar::showState);
+    connect(&run_, &RunControl::resultsChanged, this, &HeaderBar::showChoice);
+    showScene();
+    showState();
+    showChoice();
+}
+
+/// The wanted error, and the scheme that would be chosen for it.
+void HeaderBar::makeWanted(QHBoxLayout& row) {
+    auto* label = makeLabel(tr("wanted error"), "caption", this);
     wanted_ = new SeekSlider(Qt::Horizontal, this);
     wanted_->setRange(-14, 0);
     wanted_->setValue(-6);
@@ -53,18 +68,24 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSwee
     use_->hide();
     connect(use_, &QPushButton::clicked, this, &HeaderBar::useChoice);
     choice_ = makeElidedLabel({}, "strong", this);
-    row->addWidget(wantedLabel);
-    row->addWidget(wanted_, 1);
-    row->addWidget(choice_, 3);
-    row->addWidget(use_);
-    row->addSpacing(8);
+    row.addWidget(label);
+    row.addWidget(wanted_, 1);
+    row.addWidget(choice_, 3);
+    row.addWidget(use_);
+    connect(wanted_, &QSlider::valueChanged, this, [this] {
+        showChoice();
+        emit wantedChanged(wantedError());
+    });
+}
+
+void HeaderBar::makeButtons(QHBoxLayout& row) {
     runButton_ = button(tr("Run"), tr("Compute everything again (R)"), this);
     runButton_->setProperty("kind", "primary");
     runButton_->setObjectName("run");
     auto* step = button(tr("Step"), tr("Next row (Right)"), this);
     auto* save = button(tr("Export"), tr("Export everything into a folder (Ctrl+Shift+E)"), this);
     auto* palette = button(tr("Ctrl+K"), tr("Find an action or a preset"), this);
-    for (QPushButton* b : {runButton_, step, save, palette}) row->addWidget(b);
+    for (QPushButton* b : {runButton_, step, save, palette}) row.addWidget(b);
     secondary_ = {step, save};
     connect(runButton_, &QPushButton::clicked, this, [this] {
         if (run_.isRunning())
@@ -75,18 +96,6 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSwee
     connect(step, &QPushButton::clicked, this, &HeaderBar::stepRequested);
     connect(save, &QPushButton::clicked, this, &HeaderBar::exportRequested);
     connect(palette, &QPushButton::clicked, this, &HeaderBar::paletteRequested);
-    connect(wanted_, &QSlider::valueChanged, this, [this] {
-        showChoice();
-        emit wantedChanged(wantedError());
-    });
-    connect(&sweep_, &BackgroundSweep::changed, this, &HeaderBar::showChoice);
-    connect(&workspace_, &Workspace::sceneChanged, this, &HeaderBar::showScene);
-    connect(&workspace_, &Workspace::fileChanged, this, &HeaderBar::showScene);
-    connect(&run_, &RunControl::stateChanged, this, &HeaderBar::showState);
-    connect(&run_, &RunControl::resultsChanged, this, &HeaderBar::showChoice);
-    showScene();
-    showState();
-    showChoice();
 }
 
 void HeaderBar::resizeEvent(QResizeEvent* event) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+class QHBoxLayout;
 class QLabel;
 class QPushButton;
 class QSlider;
@@ -40,6 +41,8 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    void makeWanted(QHBoxLayout& row);
+    void makeButtons(QHBoxLayout& row);
     void showScene();
     void showState();
     void showChoice();

@@ -12,11 +12,7 @@
 #include <QScrollArea>
 #include <QSettings>
 #include <QSplitter>
-#include <QStackedWidget>
-#include <QStatusBar>
-#include <QTabBar>
 #include <QTimer>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
@@ -24,37 +20,31 @@
 
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
-#include "ui/base/card.hpp"
+#include "ui/base/format.hpp"
+#include "ui/base/notices.hpp"
+#include "ui/base/plain_tips.hpp"
+#include "ui/compare/compare_view.hpp"
 #include "ui/own/own_list.hpp"
 #include "ui/own/own_window.hpp"
 #include "ui/panels/discretizer.hpp"
-#include "ui/base/format.hpp"
-#include "ui/panels/scene_panel.hpp"
 #include "ui/panels/scheme_list.hpp"
 #include "ui/panels/values_table.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/workspace/autosave.hpp"
-#include "ui/shell/banners.hpp"
-#include "ui/compare/compare_view.hpp"
-#include "ui/windows/copies_window.hpp"
-#include "ui/shell/header_bar.hpp"
-#include "ui/windows/inspector_window.hpp"
-#include "ui/shell/lesson_bar.hpp"
-#include "ui/windows/log_window.hpp"
-#include "ui/base/notices.hpp"
-#include "ui/base/plain_tips.hpp"
-#include "ui/workspace/playback.hpp"
-#include "ui/windows/race_window.hpp"
-#include "ui/workspace/run_control.hpp"
-#include "ui/workspace/scheme_edits.hpp"
 #include "ui/shell/start_page.hpp"
 #include "ui/shell/theme_switch.hpp"
-#include "ui/text/text_view.hpp"
 #include "ui/shell/timeline.hpp"
-#include "ui/workspace/workspace.hpp"
-#include "ui/study/background_sweep.hpp"
 #include "ui/study/study_page.hpp"
+#include "ui/text/text_view.hpp"
+#include "ui/windows/copies_window.hpp"
+#include "ui/windows/inspector_window.hpp"
+#include "ui/windows/log_window.hpp"
+#include "ui/windows/race_window.hpp"
+#include "ui/workspace/autosave.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/run_control.hpp"
+#include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 
@@ -87,171 +77,6 @@ MainWindow::MainWindow(const Theme& theme, bool isRemembered) : theme_(theme), i
 }
 
 MainWindow::~MainWindow() = default;
-
-void MainWindow::makePages() {
-    auto* whole = new QWidget;
-    auto* column = new QVBoxLayout(whole);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(0);
-    auto* sweep = new BackgroundSweep(*run_, this);
-    auto* header = header_ = new HeaderBar(*workspace_, *run_, *sweep);
-    connect(header, &HeaderBar::runRequested, run_, &RunControl::start);
-    connect(header, &HeaderBar::stopRequested, run_, &RunControl::stop);
-    connect(header, &HeaderBar::stepRequested, this, [this] { playback_->stepBy(1, rowStep()); });
-    connect(header, &HeaderBar::exportRequested, this, &MainWindow::exportDialog);
-    connect(header, &HeaderBar::paletteRequested, this, &MainWindow::showPalette);
-    column->addWidget(header);
-
-    auto* left = new QScrollArea;
-    left->setWidgetResizable(true);
-    left->setFrameShape(QFrame::NoFrame);
-    left->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    auto* leftInside = new QWidget;
-    leftInside->setProperty("ground", "window");
-    auto* leftColumn = new QVBoxLayout(leftInside);
-    leftColumn->setContentsMargins(0, 0, 2, 0);
-    leftColumn->setSpacing(12);
-    discretizer_ = new Discretizer(*workspace_);
-    discretizer_->setTheme(theme_);
-    connect(discretizer_, &Discretizer::ownChosen, this, &MainWindow::showOwn);
-    leftColumn->addWidget(new ScenePanel(*workspace_));
-    leftColumn->addWidget(discretizer_);
-    leftColumn->addStretch();
-    left->setWidget(leftInside);
-
-    auto* centre = new QWidget;
-    auto* centreColumn = new QVBoxLayout(centre);
-    centreColumn->setContentsMargins(0, 0, 0, 0);
-    centreColumn->setSpacing(8);
-    tabs_ = new QTabBar;
-    tabs_->setExpanding(false);
-    tabs_->setDrawBase(false);
-    tabs_->addTab(tr("Compare"));
-    tabs_->addTab(tr("Notes"));
-    tabs_->addTab(tr("Studies"));
-    centreColumn->addWidget(tabs_);
-    centreColumn->addWidget(new Banners(*notices_));
-    lesson_ = new LessonBar(*workspace_, *playback_);
-    centreColumn->addWidget(lesson_);
-    pages_ = new QStackedWidget;
-    compare_ = new CompareView(*workspace_, *run_, *playback_, theme_);
-    compare_->setSweep(*sweep);
-    compare_->setWanted(header->wantedError());
-    connect(header, &HeaderBar::wantedChanged, compare_, &CompareView::setWanted);
-    connect(compare_, &CompareView::wantedMoved, header, &HeaderBar::setWantedError);
-    notes_ = new TextView;
-    notes_->setObjectName("notes");
-    notes_->setAccessibleName(tr("Notes"));
-    pages_->addWidget(compare_);
-    studies_ = new StudyPage(*workspace_, theme_);
-    pages_->addWidget(notes_);
-    pages_->addWidget(studies_);
-    centreColumn->addWidget(pages_, 1);
-    timeline_ = new Timeline(*playback_);
-    centreColumn->addWidget(timeline_);
-    values_ = new ValuesTable;
-    values_->hide();
-    centreColumn->addWidget(values_);
-    connect(tabs_, &QTabBar::currentChanged, this, &MainWindow::showPage);
-    connect(lesson_, &LessonBar::viewPointed, this, [this](const QString& view) {
-        if (!view.isEmpty()) tabs_->setCurrentIndex(0);
-        compare_->pointAt(view);
-    });
-    connect(compare_, &CompareView::startRefused, this, [this](const QString& reason) {
-        notices_->post({Notice::Kind::information,
-                        "start",
-                        tr("No motion starts there: %1.").arg(reason),
-                        tr("choose a place inside the region that the energy admits"),
-                        {}});
-    });
-    connect(compare_, &CompareView::caseLoaded, this, [this](const QString& text) {
-        notices_->post({Notice::Kind::information,
-                        "case",
-                        tr("Loaded from the map: %1.").arg(text),
-                        tr("the dot in each map marks the scene; Ctrl+Z undoes this"),
-                        {{tr("Undo"), [this] { workspace_->undo(); }}}});
-    });
-    connect(studies_, &StudyPage::pointUsed, this, [this](const QString& text) {
-        notices_->post({Notice::Kind::information,
-                        "study",
-                        tr("In the scene now: %1.").arg(text),
-                        tr("Ctrl+Z undoes this"),
-                        {{tr("Compare"), [this] { tabs_->setCurrentIndex(0); }},
-                         {tr("Undo"), [this] { workspace_->undo(); }}}});
-    });
-    connect(studies_, &StudyPage::runLoaded, this, [this](const QString& text) {
-        tabs_->setCurrentIndex(0);
-        notices_->post({Notice::Kind::information,
-                        "study",
-                        tr("Loaded from the study: %1.").arg(text),
-                        tr("Ctrl+Z undoes this"),
-                        {{tr("Studies"), [this] { tabs_->setCurrentIndex(2); }},
-                         {tr("Undo"), [this] { workspace_->undo(); }}}});
-    });
-    connect(studies_, &StudyPage::problemFound, this, [this](const QString& text, const QString& hint) {
-        notices_->post({Notice::Kind::error, "studyProblem", text, hint, {}});
-    });
-    connect(compare_, &CompareView::saveFailed, this, [this](const QString& reason) {
-        notices_->post(
-            {Notice::Kind::error, "save", tr("The plot could not be saved: %1").arg(reason), {}, {}});
-    });
-
-    schemes_ = new SchemeList(*workspace_, *run_, theme_);
-    connect(schemes_, &SchemeList::catalogueRequested, this, [this] { ownList().open(); });
-    splitter_ = new QSplitter;
-    splitter_->setChildrenCollapsible(false);
-    splitter_->setHandleWidth(12);
-    splitter_->addWidget(left);
-    splitter_->addWidget(centre);
-    splitter_->addWidget(schemes_);
-    splitter_->setStretchFactor(1, 1);
-    left_ = left;
-    auto* work = new QWidget;
-    auto* workRow = new QVBoxLayout(work);
-    workRow->setContentsMargins(12, 12, 12, 4);
-    workRow->addWidget(splitter_);
-
-    startPage_ = new StartPage(theme_, *notices_);
-    connect(startPage_, &StartPage::restoreRequested, this, [this](const UnsavedScene& scene) {
-        if (mayLeaveScene() && autosave_->restore(scene)) offerUnsaved();
-    });
-    connect(startPage_, &StartPage::discardRequested, this, [this](const UnsavedScene& scene) {
-        autosave_->discard(scene);
-        offerUnsaved();
-    });
-    connect(startPage_, &StartPage::presetChosen, this,
-            [this](const QString& name) { open("preset:" + name); });
-    connect(startPage_, &StartPage::lessonChosen, this, [this](const QString& name) {
-        if (open("preset:" + name)) startLesson();
-    });
-    connect(startPage_, &StartPage::backRequested, this, &MainWindow::goBack);
-    connect(startPage_, &StartPage::openRequested, this, &MainWindow::openDialog);
-    connect(startPage_, &StartPage::newRequested, this, &MainWindow::newFromLagrangian);
-    connect(startPage_, &StartPage::fileChosen, this, [this](const QString& path) { open(path); });
-    for (const auto& [widget, page] : {std::pair<QWidget*, const char*>{left_, "models"},
-                                       {discretizer_, "spaces"},
-                                       {compare_, "observables"},
-                                       {studies_, "studies"},
-                                       {notes_, "scenes"},
-                                       {schemes_, "schemes"},
-                                       {startPage_, "tour"}})
-        widget->setProperty("help", page);  // of F1
-    stack_ = new QStackedWidget;
-    stack_->addWidget(startPage_);
-    stack_->addWidget(work);
-    connect(stack_, &QStackedWidget::currentChanged, this, &MainWindow::showSight);
-    column->addWidget(stack_, 1);
-    setCentralWidget(whole);
-    status_ = makeLabel({}, "caption", this);
-    status_->setObjectName("status");
-    status_->setContentsMargins(14, 0, 0, 0);
-    statusBar()->addWidget(status_, 1);
-    // Below a message the bar hides the label, and shows it again with the next change of its layout, though
-    // the message is still there. What is hidden explicitly stays hidden.
-    connect(statusBar(), &QStatusBar::messageChanged, status_,
-            [this](const QString& message) { status_->setVisible(message.isEmpty()); });
-    statusBar()->setSizeGripEnabled(false);
-}
 
 void MainWindow::connectState() {
     connect(workspace_, &Workspace::sceneChanged, this, &MainWindow::showScene);

@@ -26,6 +26,7 @@ namespace extremal {
 
 class Actions;
 class Autosave;
+class BackgroundSweep;
 class CompareView;
 class CopiesWindow;
 class Discretizer;
@@ -92,6 +93,15 @@ protected:
 
 private:
     void makePages();
+    void makeHeader(BackgroundSweep& sweep);
+    QWidget* makeWorkPage(BackgroundSweep& sweep);
+    void makeSceneColumn();
+    QWidget* makeCentre(BackgroundSweep& sweep);
+    void makeTabPages(BackgroundSweep& sweep);
+    void tellOfPlots();
+    void tellOfStudies();
+    void makeStartPage();
+    void makeStatus();
     void makeActions();
     void connectState();
     void addFileActions();

@@ -17,15 +17,15 @@
 #include "engine/core/text.hpp"
 #include "engine/figure/study_figure.hpp"
 #include "ui/base/card.hpp"
-#include "ui/panels/explain.hpp"
 #include "ui/base/format.hpp"
-#include "ui/plots/plot_widget.hpp"
 #include "ui/base/theme.hpp"
-#include "ui/workspace/workspace.hpp"
+#include "ui/panels/explain.hpp"
+#include "ui/plots/plot_widget.hpp"
 #include "ui/study/explain_study.hpp"
 #include "ui/study/study_edits.hpp"
 #include "ui/study/study_form.hpp"
 #include "ui/study/wanted_error.hpp"
+#include "ui/workspace/workspace.hpp"
 
 namespace extremal {
 namespace {
@@ -87,6 +87,19 @@ StudyPage::StudyPage(Workspace& workspace, const Theme& theme, QWidget* parent)
 }
 
 void StudyPage::makeResults(const Theme& theme) {
+    makePlots(theme);
+    makeTable();
+    auto* splitter = new QSplitter(Qt::Vertical);
+    splitter->setChildrenCollapsible(false);
+    splitter->addWidget(plotCard_);
+    splitter->addWidget(tableCard_);
+    splitter->setStretchFactor(0, 2);
+    splitter->setStretchFactor(1, 1);
+    qobject_cast<QVBoxLayout*>(layout())->addWidget(splitter, 1);
+    connectResults();
+}
+
+void StudyPage::makePlots(const Theme& theme) {
     plotCard_ = new Card(tr("Plot"));
     plot_ = new PlotWidget(theme);
     Figure nothing;
@@ -99,6 +112,10 @@ void StudyPage::makeResults(const Theme& theme) {
     plots->addWidget(plot_, 1);
     plots->addWidget(beside_, 1);
     plotCard_->body()->addLayout(plots, 1);
+}
+
+/// The results as numbers, with what can be done with a row.
+void StudyPage::makeTable() {
     tableCard_ = new Card(tr("Table"));
     const auto button = [this](const QString& text, const char* name, const QString& tip) {
         auto* made = new QPushButton(text);
@@ -130,13 +147,9 @@ void StudyPage::makeResults(const Theme& theme) {
     table_->setMinimumHeight(100);
     explainCellsOf(*table_);
     tableCard_->body()->addWidget(table_, 1);
-    auto* splitter = new QSplitter(Qt::Vertical);
-    splitter->setChildrenCollapsible(false);
-    splitter->addWidget(plotCard_);
-    splitter->addWidget(tableCard_);
-    splitter->setStretchFactor(0, 2);
-    splitter->setStretchFactor(1, 1);
-    qobject_cast<QVBoxLayout*>(layout())->addWidget(splitter, 1);
+}
+
+void StudyPage::connectResults() {
     connect(measure_, &QPushButton::clicked, this, &StudyPage::measureCheapest);
     connect(use_, &QPushButton::clicked, this, &StudyPage::useSelected);
     connect(load_, &QPushButton::clicked, this, &StudyPage::loadSelected);

@@ -68,6 +68,9 @@ private:
     };
 
     void makeResults(const Theme& theme);
+    void makePlots(const Theme& theme);
+    void makeTable();
+    void connectResults();
     void showScene();
     void showKind();
     void showFigure();
