@@ -3,16 +3,25 @@
 #
 #     extremal_tree_violations(ROOT OUT)    OUT: a list of "FILE:LINE: WHAT", empty if the tree is sound
 #     extremal_licence_violations(ROOT OUT) the same of sources without the line that says their licence
+#     extremal_room_violations(ROOT OUT)    the same of folders and names of files in ui
+#     extremal_handbook_violations(ROOT OUT) the same of the tree that the handbook prints
 #
-# Includes point down the order of the folders; the engine does not use Qt or OpenGL; a file is one idea; a family of
-# schemes is named in its own folder only; what a header declares is defined in its folder (definitions.cmake).
+# Includes point down the order of the folders; the engine does not use Qt or OpenGL; a file is one idea, and so is a
+# function; a family of schemes is named in its own folder only; what a header declares is defined in its folder
+# (definitions.cmake).
 include(${CMAKE_CURRENT_LIST_DIR}/definitions.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/functions.cmake)
 
 # A folder may include itself and every folder before it.
 set(levels
     core mesh group quadrature model symmetry space action tableau solve integrator mechanism family baseline trajectory observe view scene run study passport figure inspect
     library ui app)
+# The levels within ui: a folder may include itself and the folders of lower levels. Folders joined by "+" are on one
+# level, and do not include each other. This list and the one above are also the tree that the handbook prints.
+set(levels_of_ui base text+workspace plots+stage pictures+panels study+own compare+windows shell)
 set(max_lines 500)
+set(max_function_lines 80)
+set(max_files 40)  # in a folder of ui
 
 # What belongs to one family: the types of its spaces, keys and values that no other family has. Quoted, they occur in
 # engine/family/<family> alone, and in tests. Polynomials and splines are tables as well: engine/space may name them,
@@ -36,12 +45,30 @@ foreach(folder ${levels})
     math(EXPR level "${level} + 1")
 endforeach()
 
+set(level 0)
+foreach(folders ${levels_of_ui})
+    string(REPLACE "+" ";" folders "${folders}")
+    foreach(folder ${folders})
+        set(ui_level_of_${folder} ${level})
+    endforeach()
+    math(EXPR level "${level} + 1")
+endforeach()
+
 # The folder of the order that a path from the root belongs to; empty for tests, resources and the like.
 function(extremal_folder_of path out)
     set(folder "")
     if(path MATCHES "^engine/([^/]+)/")
         set(folder ${CMAKE_MATCH_1})
     elseif(path MATCHES "^(library|ui|app)/")
+        set(folder ${CMAKE_MATCH_1})
+    endif()
+    set(${out} "${folder}" PARENT_SCOPE)
+endfunction()
+
+# The folder of ui that a path from the root belongs to, or empty.
+function(extremal_ui_folder_of path out)
+    set(folder "")
+    if(path MATCHES "^ui/([^/]+)/")
         set(folder ${CMAKE_MATCH_1})
     endif()
     set(${out} "${folder}" PARENT_SCOPE)
@@ -102,6 +129,11 @@ function(extremal_tree_violations root out)
             list(APPEND violations "${path}:1: not in a folder of the engine's order (tests/tree/rules.cmake)")
             continue()
         endif()
+        extremal_ui_folder_of(${path} ui_folder)
+        if(path MATCHES "^ui/" AND NOT DEFINED ui_level_of_${ui_folder})
+            list(APPEND violations "${path}:1: not in a folder of the levels of ui (tests/tree/rules.cmake)")
+            continue()
+        endif()
 
         file(READ ${root}/${path} text)
         string(REGEX REPLACE "[^\n]" "" breaks "${text}")
@@ -124,6 +156,8 @@ function(extremal_tree_violations root out)
 
         extremal_includes_of(${root}/${path} includes)
         if(NOT path MATCHES "^tests/")
+            extremal_function_violations(${root} ${path} ${max_function_lines} long)
+            list(APPEND violations ${long})
             extremal_family_violations(${root} ${path} "${includes}" named)
             list(APPEND violations ${named})
             if(path MATCHES "^engine/family/([^/]+)/family.cpp$" AND NOT CMAKE_MATCH_1 IN_LIST families)
@@ -143,6 +177,7 @@ function(extremal_tree_violations root out)
             endif()
             set(target ${CMAKE_MATCH_1})
             extremal_folder_of("${target}" other)
+            extremal_ui_folder_of("${target}" ui_other)
             if(other STREQUAL "")
                 # ui and app may include files of their own folder; the engine names every file from the root.
                 if(path MATCHES "^engine/")
@@ -152,11 +187,96 @@ function(extremal_tree_violations root out)
                 list(APPEND violations "${where}: ${name} is in no folder of the order")
             elseif(level_of_${other} GREATER level_of_${folder})
                 list(APPEND violations "${where}: ${folder} includes ${name}, which is above it")
+            elseif(ui_folder STREQUAL "" OR ui_folder STREQUAL ui_other OR NOT other STREQUAL "ui")
+                continue()
+            elseif(NOT DEFINED ui_level_of_${ui_other})
+                list(APPEND violations "${where}: ${name} is in no folder of the levels of ui")
+            elseif(ui_level_of_${ui_other} GREATER ui_level_of_${ui_folder})
+                list(APPEND violations "${where}: ui/${ui_folder} includes ${name}, which is above it")
+            elseif(ui_level_of_${ui_other} EQUAL ui_level_of_${ui_folder})
+                list(APPEND violations "${where}: ui/${ui_folder} includes ${name}, which is beside it")
             endif()
         endforeach()
     endforeach()
     extremal_definition_violations(${root} undefined)
     list(APPEND violations ${undefined})
+    set(${out} "${violations}" PARENT_SCOPE)
+endfunction()
+
+# A folder of ui is one room: it has at most max_files files. A source there is named after the header whose
+# declarations it defines: shell/main_window.cpp and shell/main_window_actions.cpp belong to shell/main_window.hpp.
+function(extremal_room_violations root out)
+    set(violations "")
+    file(GLOB_RECURSE files RELATIVE ${root} ${root}/ui/*.hpp ${root}/ui/*.cpp)
+    set(rooms "")
+    foreach(path ${files})
+        get_filename_component(room ${path} DIRECTORY)
+        list(APPEND rooms ${room})
+        list(APPEND files_of_${room} ${path})
+        if(NOT path MATCHES "^(.*)\\.cpp$")
+            continue()
+        endif()
+        set(stem ${CMAKE_MATCH_1})
+        while(NOT EXISTS ${root}/${stem}.hpp AND stem MATCHES "^(.*)_[^_/]+$")
+            set(stem ${CMAKE_MATCH_1})
+        endwhile()
+        if(NOT EXISTS ${root}/${stem}.hpp)
+            list(APPEND violations "${path}:1: named after no header of its folder")
+        endif()
+    endforeach()
+    list(REMOVE_DUPLICATES rooms)
+    foreach(room ${rooms})
+        list(LENGTH files_of_${room} count)
+        if(count GREATER max_files)
+            list(APPEND violations "${room}:1: ${count} files, more than ${max_files}: more than one room")
+        endif()
+    endforeach()
+    set(${out} "${violations}" PARENT_SCOPE)
+endfunction()
+
+# The tree in resources/handbook/architecture.md has the folders of the order, level by level: "  + stage/" is on the
+# level of the line before.
+function(extremal_handbook_violations root out)
+    set(page resources/handbook/architecture.md)
+    set(expected "")
+    foreach(folder ${levels})
+        if(folder STREQUAL "ui")
+            foreach(level ${levels_of_ui})
+                string(REPLACE "+" ";+" folders "${level}")
+                list(TRANSFORM folders PREPEND "ui/")
+                list(APPEND expected ${folders})
+            endforeach()
+        elseif(folder MATCHES "^(library|app)$")
+            list(APPEND expected ${folder})
+        else()
+            list(APPEND expected engine/${folder})
+        endif()
+    endforeach()
+    set(printed "")
+    set(top "")
+    file(STRINGS ${root}/${page} lines)
+    foreach(line IN LISTS lines)
+        if(line MATCHES "^([a-z]+)/( |$)")
+            set(top ${CMAKE_MATCH_1})
+            if(top MATCHES "^(library|app)$")
+                list(APPEND printed ${top})
+            endif()
+        elseif(top MATCHES "^(engine|ui)$" AND line MATCHES "^  ([+] )?([a-z_]+)/( |$)")
+            string(STRIP "${CMAKE_MATCH_1}" beside)
+            list(APPEND printed "${top}/${beside}${CMAKE_MATCH_2}")
+        endif()
+    endforeach()
+    set(violations "")
+    if(NOT printed STREQUAL expected)
+        list(APPEND expected "its end")
+        list(APPEND printed "its end")
+        foreach(one other IN ZIP_LISTS expected printed)
+            if(NOT one STREQUAL other)
+                set(violations "${page}:1: the tree has ${other} where the levels of tests/tree/rules.cmake have ${one}")
+                break()
+            endif()
+        endforeach()
+    endif()
     set(${out} "${violations}" PARENT_SCOPE)
 endfunction()
 
