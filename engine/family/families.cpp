@@ -183,7 +183,7 @@ Properties describe(const Discretization& discretization) {
         refuseRule(quadrature, p);
         return p;
     }
-    return known.get(space, quadrature, [&] { return knownFamily(space).describe(discretization); });
+    return known.get(space, quadrature, [&d = discretization] { return knownFamily(d.space).describe(d); });
 }
 
 Properties describe(const Discretization& discretization, const System& system) {

@@ -185,13 +185,13 @@ MapRun::MapRun(const Scene& scene) : scene_(scene) {
 }
 
 void MapRun::run(std::size_t task, const std::stop_token& stop) {
-    const auto [first, column] = tasks_[task];
+    const std::size_t first = tasks_[task].firstMap, column = tasks_[task].column;
     const MapGrid& grid = maps_[first].grid;
     const std::size_t rows = grid.steps.size(), schemes = mappedSchemes(scene_).size();
-    const auto publish = [&, c = column](std::size_t s, const Cells& cells) {
+    const auto publish = [&](std::size_t s, const Cells& cells) {
         const std::lock_guard lock(mutex_);
         std::copy(cells.begin(), cells.end(),
-                  maps_[first + s].cells.begin() + static_cast<std::ptrdiff_t>(c * rows));
+                  maps_[first + s].cells.begin() + static_cast<std::ptrdiff_t>(column * rows));
         for (const MapCell& cell : cells) done_ += cell.end != MapCell::End::waiting;
     };
     const Value document = columnDocument(scene_, grid, grid.values[column]);
@@ -204,12 +204,12 @@ void MapRun::run(std::size_t task, const std::stop_token& stop) {
     }
     if (unknown.empty() || stop.stop_requested()) return;
 
-    const auto refuse = [&, c = column](const std::vector<Problem>& problems) {
+    const auto refuse = [&](const std::vector<Problem>& problems) {
         for (const std::size_t s : unknown) publish(s, Cells(rows, MapCell{MapCell::End::refused}));
         if (problems.empty()) return;
         const std::lock_guard lock(mutex_);
         for (const std::size_t s : unknown)
-            maps_[first + s].problems[c] = problems.front().pointer + " " + problems.front().message;
+            maps_[first + s].problems[column] = problems.front().pointer + " " + problems.front().message;
     };
     const ReadScene read = readScene(document);
     if (!read.resolved) return refuse(read.errors);

@@ -214,9 +214,8 @@ void StartsRun::run(std::size_t task, const std::stop_token& stop) {
         Orbit orbit = origin.starts[place];
         bool isWhole = false;
         try {
-            contained("", [&] {
-                isWhole = Motion(resolved_, resolved_.schemes[origin.scheme], sets_.all[set].plane,
-                                 origin.mostPoints, orbit)
+            contained("", [&, &plane = sets_.all[set].plane] {
+                isWhole = Motion(resolved_, resolved_.schemes[origin.scheme], plane, origin.mostPoints, orbit)
                               .run(stop);
             });
         } catch (const InvalidScene& e) {

@@ -242,7 +242,7 @@ Value settingsValue(const Settings& settings, std::string_view typeKey) {
     for (const auto& [key, value] : settings.keys) {
         if (value.isNull()) continue;  // left out
         const auto text = std::find_if(settings.expressions.begin(), settings.expressions.end(),
-                                       [&](const Value::Member& m) { return m.first == key; });
+                                       [&name = key](const Value::Member& m) { return m.first == name; });
         object.set(key, text == settings.expressions.end() ? value : text->second);
     }
     return object;

@@ -104,7 +104,7 @@ std::vector<Edit> Workspace::draftsBeside(const std::vector<Edit>& edits) const 
     std::vector<Edit> beside;
     for (const auto& [pointer, value] : drafts_)
         if (std::none_of(edits.begin(), edits.end(),
-                         [&](const Edit& e) { return isAtOrBelow(pointer, e.pointer); }))
+                         [&place = pointer](const Edit& e) { return isAtOrBelow(place, e.pointer); }))
             beside.push_back({pointer, value});
     return beside;
 }

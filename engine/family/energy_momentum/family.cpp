@@ -103,7 +103,7 @@ Properties describeMovingTime(const Discretization& discretization) {
     const std::string degree = std::to_string(space.integer("degree"));
     Properties p;
     if (isPlainRule(quadrature))
-        p = describeTable([&] { return tableOfSpace(space, quadrature); });
+        p = describeTable([&d = discretization] { return tableOfSpace(d.space, d.quadrature); });
     else
         refuseRule(quadrature, p);
     p.claims.conserves.push_back("discrete energy");

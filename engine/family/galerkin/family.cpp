@@ -114,7 +114,7 @@ Properties describeGalerkin(const Discretization& discretization) {
     } else if (isTyped && dependsOnStep(space)) {
         p = describeFitted(space, quadrature);
     } else {
-        p = describeTable([&] { return tableOf(space, quadrature); },
+        p = describeTable([&d = discretization] { return tableOf(d.space, d.quadrature); },
                           [&] { return firstEdge(tableStability(discretization)->intervals); });
         if (isTyped && p.refusal.empty() && p.claims.order < 1) {
             p.refusal = "it would have order 0: curves of constant speed are not in the space";

@@ -43,7 +43,7 @@ Properties describeLie(const Discretization& discretization) {
     const auto& [space, quadrature, solver] = discretization;
     Properties p;
     if (isPlainRule(quadrature)) {
-        p = describeTable([&] { return lieTable(space, quadrature); });
+        p = describeTable([&d = discretization] { return lieTable(d.space, d.quadrature); });
     } else {
         refuseRule(quadrature, p);
     }

@@ -151,7 +151,7 @@ ChoiceGrid choices(const System& system) {
                                      {"product", "product-form"}}) {
         const auto named = namedScheme(name);
         const auto entry = std::find_if(schemeCatalog().begin(), schemeCatalog().end(),
-                                        [&](const SchemeEntry& e) { return e.item.id == name; });
+                                        [id = name](const SchemeEntry& e) { return e.item.id == id; });
         for (const auto& [heading, rule] : columns) {
             ChoiceGrid::Cell cell;
             cell.discretization = {named->space, completeQuadrature(named->space, {rule, {}, {}}), {}};

@@ -20,8 +20,8 @@ void drawOnInterval(const Hamiltonian& h, const double* values, Drawing& drawing
     const auto place = [&](std::size_t j) { return j < n ? h.x()[j] : left + L; };
     if (*high > *low) {
         const std::size_t every = std::max<std::size_t>(1, n / 256), last = h.isPeriodic() ? n : n - 1;
-        const auto at = [&](std::size_t j) {
-            return Point{place(j), 0.3 * L * (V[j % n] - *low) / (*high - *low), 0};
+        const auto at = [&, from = *low, range = *high - *low](std::size_t j) {
+            return Point{place(j), 0.3 * L * (V[j % n] - from) / range, 0};
         };
         for (std::size_t j = 0; j + every <= last; j += every)
             drawing.shapes.push_back(Segment{at(j), at(j + every), 1.2, ShapeRole::scenery});
