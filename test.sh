@@ -5,7 +5,8 @@
 #
 # ./test.sh --strict checks what a build does not: it compiles everything in build-strict without precompiled headers and
 # without batches of files, so that each file shows what it fails to include, with all warnings, those of memory errors
-# included; and it checks the formatting of all sources and the rules of the source tree.
+# included; and it checks the formatting of all sources, the rules of the source tree, and with clang-tidy (.clang-tidy) the
+# sources that differ from the commit before; with EXTREMAL_TIDY=all, which takes about an hour on two cores, all of them.
 #
 # ./test.sh --sanitize address,undefined (or thread) builds everything with these sanitizers of the compiler, in a folder of
 # its own, and runs all tests; the first report of one is a failure. What is not ours to mend is suppressed by name, with the
@@ -14,12 +15,25 @@ set -euo pipefail
 root=$(cd -P "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$root/.ci/prepare.sh"
 
+# The sources of the program that clang-tidy is to look at, each ended by a null character.
+sources_to_tidy() {
+    local folders=(engine library ui app)
+    if [ "${EXTREMAL_TIDY:-changed}" = all ]; then
+        find "${folders[@]}" -name '*.cpp' -print0
+    elif git rev-parse --verify --quiet HEAD~1 >/dev/null 2>&1; then
+        git diff --name-only --diff-filter=d -z HEAD~1 -- "${folders[@]/%//*.cpp}"
+    else
+        say "No history here: clang-tidy is left out; EXTREMAL_TIDY=all runs it on all sources."
+    fi
+}
+
 strict() {
     configure build-strict -DEXTREMAL_PCH=OFF -DEXTREMAL_UNITY=OFF
     cd "$root"
     find engine library ui app tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
     cmake -DROOT="$root" -P tests/tree/check_tree.cmake
     ninja -C build-strict all bench >&2
+    sources_to_tidy | xargs -0 -r -n 1 -P "$(nproc)" clang-tidy -p build-strict --quiet
     ctest --test-dir build-strict --output-on-failure -L tree "$@"
 }
 
