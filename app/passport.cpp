@@ -16,8 +16,8 @@ namespace {
 
 /// What the ending of a file stands for; an ending that none of them has is an error.
 template <class Kind>
-Kind kindOf(const std::string& file, const std::vector<std::pair<std::string, Kind>>& endings,
-            const std::string& option) {
+Kind byEnding(const std::string& file, const std::vector<std::pair<std::string, Kind>>& endings,
+              const std::string& option) {
     std::vector<std::string> names;
     for (const auto& [ending, kind] : endings) {
         if (file.ends_with(ending)) return kind;
@@ -31,23 +31,23 @@ PageFormat formatOf(const PassportRequest& request) {
     if (request.format == "html") return PageFormat::html;
     if (request.format == "tex") return PageFormat::latex;
     if (request.format == "md" || request.out.empty()) return PageFormat::markdown;
-    return kindOf<PageFormat>(request.out,
-                              {{".md", PageFormat::markdown},
-                               {".html", PageFormat::html},
-                               {".htm", PageFormat::html},
-                               {".tex", PageFormat::latex}},
-                              "--format");
+    return byEnding<PageFormat>(request.out,
+                                {{".md", PageFormat::markdown},
+                                 {".html", PageFormat::html},
+                                 {".htm", PageFormat::html},
+                                 {".tex", PageFormat::latex}},
+                                "--format");
 }
 
 ProgramLanguage languageOf(const ProgramRequest& request) {
     if (request.language == "python") return ProgramLanguage::python;
     if (request.language == "cpp") return ProgramLanguage::cpp;
-    return kindOf<ProgramLanguage>(request.out,
-                                   {{".cpp", ProgramLanguage::cpp},
-                                    {".cc", ProgramLanguage::cpp},
-                                    {".cxx", ProgramLanguage::cpp},
-                                    {".py", ProgramLanguage::python}},
-                                   "--language");
+    return byEnding<ProgramLanguage>(request.out,
+                                     {{".cpp", ProgramLanguage::cpp},
+                                      {".cc", ProgramLanguage::cpp},
+                                      {".cxx", ProgramLanguage::cpp},
+                                      {".py", ProgramLanguage::python}},
+                                     "--language");
 }
 
 }  // namespace
