@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/family/family.hpp"
-#include "engine/run/wave_mesh_error.hpp"
+#include "engine/model/parts/mesh_error.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/premise.hpp"
 
@@ -89,9 +89,10 @@ double errorOfExact(const ResolvedScene& resolved, const std::stop_token& stop) 
     double error = roundOffPart(system, initial, scene.end.value - scene.start.value);
     const ExactPremise premise = premiseOf(scene, system, initial);
     error = std::max(error, premise.error);
-    if (isWave(system)) {
+    if (const MeshError* const ofMesh = system.parts.find<MeshError>()) {
         // Cut off at a wall, a wave function converges so slowly that the next mesh is no better.
-        const double mesh = meshErrorOf(scene, system, initial, stop);
+        const double mesh =
+            ofMesh->ofExact({scene.initial.given, initial, scene.start.value, scene.end.value}, stop);
         error = std::max(error, premise.isViolated ? std::min(2.0, 3 * mesh) : mesh);
     }
     // Initial data of other kinds are typed as formulas, and wave functions depend on theirs isometrically.

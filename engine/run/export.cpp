@@ -10,7 +10,7 @@
 #include "engine/core/fingerprint.hpp"
 #include "engine/core/known_value.hpp"
 #include "engine/core/text.hpp"
-#include "engine/model/wave/levels.hpp"
+#include "engine/model/parts/potential_levels.hpp"
 #include "engine/run/event_files.hpp"
 #include "engine/run/file_batch.hpp"
 #include "engine/run/missing.hpp"
@@ -231,8 +231,9 @@ std::vector<double> levelsOf(const Comparison& comparison, const SchemeResult& s
     const auto& views = comparison.scene.views;
     const bool isDrawn =
         std::any_of(views.begin(), views.end(), [](const View& view) { return view.id == "levels"; });
-    if (!isDrawn || !system || !isWave(*system) || !levelsProblem(*system->hamiltonian()).empty()) return {};
-    return lowestLevels(system->hamiltonian());
+    const PotentialLevels* const levels = isDrawn && system ? system->parts.find<PotentialLevels>() : nullptr;
+    if (!levels || !levels->problem.empty()) return {};
+    return levels->lowest();
 }
 
 std::string levelsCsv(const std::vector<double>& levels) {

@@ -12,12 +12,12 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/model/parts/mesh_error.hpp"
 #include "engine/model/typed/branches.hpp"
 #include "engine/run/exact_reference.hpp"
 #include "engine/run/reference_file.hpp"
 #include "engine/run/shared_solution.hpp"
 #include "engine/run/stepped_solution.hpp"
-#include "engine/run/wave_mesh_error.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/companion.hpp"
 #include "engine/scene/premise.hpp"
@@ -277,9 +277,12 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
                            "use \"auto\"");
     if (onMeshes) return computedOnMesh(resolved, *onMeshes, stop);
     Reference reference = computed(scene, system, initial, stop);
-    if (isWave(system) && reference.make && !stop.stop_requested())
-        reference.info.estimatedError = std::max(reference.info.estimatedError,
-                                                 meshErrorOf(scene, system, initial, reference.make(), stop));
+    if (const MeshError* const ofMesh = system.parts.find<MeshError>();
+        ofMesh && reference.make && !stop.stop_requested())
+        reference.info.estimatedError =
+            std::max(reference.info.estimatedError,
+                     ofMesh->ofComputed({scene.initial.given, initial, scene.start.value, scene.end.value},
+                                        reference.make(), stop));
     return reference;
 }
 

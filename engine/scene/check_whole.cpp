@@ -344,9 +344,8 @@ void checkPremise(Reader& reader, const ResolvedScene& resolved) {
     const std::string text = "exact solution: " + premise.text;
     if (kind == Kind::automatic && isComputedInstead(scene, system))
         reader.warning("/reference", text + ": a computed reference is used");
-    else if (isWave(system))
-        reader.warning("/initial/psi", text + ": no number of modes resolves it",
-                       "a narrower packet, or one further inside");
+    else if (!premise.pointer.empty())
+        reader.warning(premise.pointer, text + ": " + premise.consequence, premise.remedy);
     else
         reader.warning("/reference", text + ": its estimated error contains that",
                        isBackwards(scene) ? "a larger domain" : "take auto");

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "engine/core/text.hpp"
 #include "engine/model/typed/typed_function.hpp"
 
 namespace extremal {
@@ -208,6 +209,42 @@ EndViolation endViolationOf(const ExactSolution::AtPlaces& exact, const FieldPro
     found.from = waves[worse].from();
     found.error = boundOf(waves, problem.mesh.length() / ends.speed(), ends.speed(), step);
     return found;
+}
+
+namespace {
+
+ExactPremise premiseOf(const FieldProblem& problem, const ExactSolution& exact, double start, double end) {
+    ExactPremise premise;
+    if (!exact.atPlaces()) return premise;
+    const EndViolation ends = endViolationOf(exact.atPlaces(), problem, start, end);
+    premise.error = ends.error;
+    premise.isViolated = ends.matters();
+    if (premise.isViolated)
+        premise.text = "does not hold at x = " + formatNumber(ends.place, 6) + " (" +
+                       formatNumber(ends.largest, 2) + " from t = " + formatNumber(ends.from, 2) + " on)";
+    return premise;
+}
+
+std::string faultOf(const FieldProblem& problem, const PremiseCheck::Run& run) {
+    constexpr double most = 1e-10;
+    if (!run.given.find("exact")) return {};
+    const FieldProfile profile = fieldProfile(run.given, problem, run.initial.t);
+    const FieldResidual r = residualOf(profile, problem, run.start, run.end);
+    if (!(r.ratio > most)) return {};
+    const auto number = [](double x) { return formatNumber(x, 4); };
+    return "does not solve the equation of the field: at x = " + number(r.x) + ", t = " + number(r.t) +
+           " u_tt = " + number(r.acceleration) + ", -(a φ'(u_x))_x = " + number(r.force) +
+           ", W'(u) = " + number(r.slope) + ", and their sum is " + formatNumber(r.ratio, 2) +
+           " of their sizes";
+}
+
+}  // namespace
+
+PremiseCheck premiseCheckOf(const std::shared_ptr<const FieldProblem>& problem) {
+    return {[problem](const PremiseCheck::Run& run, const std::function<ExactSolution()>& exact) {
+                return premiseOf(*problem, exact(), run.start, run.end);
+            },
+            [problem](const PremiseCheck::Run& run) { return faultOf(*problem, run); }};
 }
 
 }  // namespace extremal

@@ -13,8 +13,11 @@
 /// not meet itself; of kinks and breathers it is within a factor of 3 of that (engine.run.premise).
 #pragma once
 
+#include <memory>
+
 #include "engine/model/field/problem.hpp"
 #include "engine/model/field/profile.hpp"
+#include "engine/model/parts/premise_check.hpp"
 
 namespace extremal {
 
@@ -38,5 +41,8 @@ struct EndViolation {
 };
 EndViolation endViolationOf(const ExactSolution::AtPlaces& exact, const FieldProblem& problem, double start,
                             double end);
+
+/// Both, of a field.
+PremiseCheck premiseCheckOf(const std::shared_ptr<const FieldProblem>& problem);
 
 }  // namespace extremal

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/model/field/exact_premise.hpp"
 #include "engine/model/field/profile.hpp"
 #include "engine/model/field/spatial_form.hpp"
 #include "engine/quadrature/rule.hpp"
@@ -227,6 +228,7 @@ System makeFieldSystem(Shared problem, double amplitude) {
     s.energy = [form](double, const double* x) {
         return form->kineticEnergy(x + form->size()) + form->energy(x);
     };
+    s.parts.set(premiseCheckOf(problem));
     s.error = errorOf(problem);
     s.field = samplingOf(problem);
     s.at = [problem](const double* x, std::span<const double> places, double* values) {

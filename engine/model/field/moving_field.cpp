@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/model/field/exact_premise.hpp"
 #include "engine/model/field/field_system.hpp"
 #include "engine/model/field/moving_element.hpp"
 #include "engine/model/field/profile.hpp"
@@ -134,6 +135,7 @@ MomentumMap movingMomentum(const SharedProblem& problem) {
 System makeMovingField(SharedProblem problem, double amplitude) {
     System s;
     s.parts.set(ScalarField{problem});
+    s.parts.set(premiseCheckOf(problem));
     s.energy = movingEnergy(problem);
     s.error.columns = fieldErrorColumns();
     s.error.evaluate = [](const double*, const double*, double* values) {

@@ -13,6 +13,7 @@
 #include "engine/model/wave/measures.hpp"
 #include "engine/model/wave/packet.hpp"
 #include "engine/model/wave/spectrum.hpp"
+#include "engine/model/wave/wave_parts.hpp"
 
 namespace extremal {
 namespace {
@@ -69,6 +70,7 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
     static MemoCache<Settings, Shared> recent(6);
     const Shared h = recent.get(settings, [&] { return make(settings); });
     s.parts.set(Wave{h});
+    addWaveParts(s, h);
     s.measures = waveMeasures(h);
     s.phaseError = wavePhaseError(h->size());
     s.energy = [h](double t, const double* x) { return h->energy(t, coefficients(x)); };

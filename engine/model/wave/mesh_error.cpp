@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/run/wave_mesh_error.hpp"
+#include "engine/model/wave/mesh_error.hpp"
 
 #include <Eigen/Core>
 
@@ -80,8 +80,7 @@ double differenceOf(const Coefficients& a, const Coefficients& b) {
 }
 
 /// The wave function of the scene on another mesh; empty where it is known on its own mesh alone.
-Coefficients startOn(const Shared& h, const Scene& scene) {
-    const Settings& given = scene.initial.given;
+Coefficients startOn(const Shared& h, const Settings& given) {
     const Value* const psi = given.find("psi");
     if (!psi || psi->find("values")) return {};
     // A state of a mesh is the function to be followed; that of another one may differ by a phase.
@@ -101,10 +100,10 @@ State stateOf(double t, const Coefficients& c) {
     return {t, 0, {numbers, numbers + 2 * c.size()}, {}};
 }
 
-class MeshError {
+class Meshes {
 public:
-    MeshError(const Scene& scene, Shared h, const State& initial, const std::stop_token& stop)
-        : scene_(scene), h_(std::move(h)), initial_(initial), stop_(stop) {}
+    Meshes(const MeshError::Run& run, Shared h, const std::stop_token& stop)
+        : run_(run), h_(std::move(h)), initial_(run.initial), stop_(stop) {}
 
     /// The largest distance of the motions on two meshes, the coarse one first.
     double between(const Shared& coarse, const State& low, const Shared& fine, const State& high) const {
@@ -121,12 +120,12 @@ public:
         return most;
     }
     double againstFiner(const Shared& fine) const {
-        Coefficients start = startOn(fine, scene_);
+        Coefficients start = startOn(fine, run_.given);
         if (start.empty()) start = Embedding(*h_, *fine)(coefficients(initial_.x.data()));
         return between(h_, initial_, fine, stateOf(initial_.t, start));
     }
     double againstCoarser(const Shared& coarse) const {
-        const Coefficients start = startOn(coarse, scene_);
+        const Coefficients start = startOn(coarse, run_.given);
         return start.empty() ? 0 : between(coarse, stateOf(initial_.t, start), h_, initial_);
     }
     /// By the trapezoidal rule over the run.
@@ -136,9 +135,9 @@ public:
         Coefficients low(n), high(m), workLow(n), workHigh(m);
         std::vector<double> V(n), fineV(m);
         std::vector<double> x(initial_.x.size());
-        const Coefficients start = startOn(fine, scene_);
+        const Coefficients start = startOn(fine, run_.given);
         double error = start.empty() ? 0 : differenceOf(embed(coefficients(initial_.x.data())), start);
-        const double step = std::abs(scene_.end.value - scene_.start.value) / (meshSamples - 1);
+        const double step = std::abs(run_.end - run_.start) / (meshSamples - 1);
         for (int k = 0; k < meshSamples && !stop_.stop_requested(); ++k) {
             motion(time(k), x);
             h_->potentialAt(time(k), V.data());
@@ -152,10 +151,8 @@ public:
     }
 
 private:
-    double time(int k) const {
-        return scene_.start.value + (scene_.end.value - scene_.start.value) * k / (meshSamples - 1);
-    }
-    const Scene& scene_;
+    double time(int k) const { return run_.start + (run_.end - run_.start) * k / (meshSamples - 1); }
+    const MeshError::Run& run_;
     Shared h_;
     const State& initial_;
     const std::stop_token& stop_;
@@ -175,28 +172,27 @@ double asSeenAtNodes(double found, const Hamiltonian& h, const State& initial) {
     return std::min(atNodes * found, 2 * std::sqrt(squaredNorm(coefficients(initial.x.data()), h.size())));
 }
 
-}  // namespace
-
-double meshErrorOf(const Scene& scene, const System& system, const State& initial,
-                   const std::stop_token& stop) {
-    const Shared& h = system.hamiltonian();
-    const MeshError error(scene, h, initial, stop);
+double ofExact(const Shared& h, const MeshError::Run& run, const std::stop_token& stop) {
+    const Meshes error(run, h, stop);
     const wave::Grid& grid = h->grid();
     const int ny = grid.ny > 1 ? 2 * grid.ny : 1;
     double found = 0;
     if (2 * grid.nx * ny <= Eigenstates::denseLimit)
         found = error.againstFiner(refined(*h));
     else if (h->isSplit())
-        found = error.boundBy(refined(*h), exactWave(h, initial));
+        found = error.boundBy(refined(*h), exactWave(h, run.initial));
     else
         found = error.againstCoarser(h->withModes(grid.nx / 2));
-    return asSeenAtNodes(found, *h, initial);
+    return asSeenAtNodes(found, *h, run.initial);
 }
 
-double meshErrorOf(const Scene& scene, const System& system, const State& initial,
-                   const ExactSolution& motion, const std::stop_token& stop) {
-    const Shared& h = system.hamiltonian();
-    return asSeenAtNodes(MeshError(scene, h, initial, stop).boundBy(refined(*h), motion), *h, initial);
+}  // namespace
+
+MeshError waveMeshError(Shared h) {
+    return {[h](const MeshError::Run& run, const std::stop_token& stop) { return ofExact(h, run, stop); },
+            [h](const MeshError::Run& run, const ExactSolution& motion, const std::stop_token& stop) {
+                return asSeenAtNodes(Meshes(run, h, stop).boundBy(refined(*h), motion), *h, run.initial);
+            }};
 }
 
 }  // namespace extremal
