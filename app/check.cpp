@@ -99,7 +99,7 @@ int checkVerb(const std::string& scene, const CommonOptions& options) {
     }
     if (!isValid || options.isQuiet) return code;
     std::string text = sceneName(scene) + ": valid\n";
-    if (const System& system = *read.resolved->system; isMechanical(system))
+    if (const System& system = *read.resolved->system; system.isMovedOnlyBy<Mechanical>())
         text += "symmetries: " + symmetryText(system) + "\n";
     text += switchesText(read.scene);
     return print(text, code);

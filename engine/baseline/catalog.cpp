@@ -19,7 +19,7 @@ bool canIntegrate(const BaselineEntry& entry, const System& system) {
     if (!appliesTo(entry, system)) return false;
     // Where H is a full matrix there are few ways, and their makers know; a trial costs little with at most
     // 512 modes.
-    if (!isWave(system) || !hasFullMatrix(system)) return true;
+    if (!system.parts.find<Wave>() || !hasFullMatrix(system)) return true;
     Settings settings{entry.item.id, {}, {}};
     for (const FieldInfo& f : entry.item.parameters) settings.keys.emplace_back(f.key, f.firstValue());
     try {

@@ -36,13 +36,13 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
               splitting.isNystrom ? "a separable Lagrangian" : ""};
     e.takes = Takes::only<Mechanical, Wave>();
     e.suits = [isNystrom = splitting.isNystrom](const System& system) {
-        return isWave(system) || !isNystrom || system.mechanics().isSeparable;
+        return system.parts.find<Wave>() || !isNystrom || system.mechanics().isSeparable;
     };
     // Fractions are printed to 15 digits.
     e.stabilityLimit = firstEdge(OscillatorStep(tableauOf(splitting.stages, 1e-15)).intervals());
     e.tableau = [splitting](const Settings&) { return tableauOf(splitting.stages, 1e-15); };
     e.make = [splitting](const System& system, const BaselineOptions& options) {
-        if (isWave(system)) return makeWaveSplitting(system, options.step, splitting);
+        if (system.parts.find<Wave>()) return makeWaveSplitting(system, options.step, splitting);
         return makePartitioned(system.mechanics(), options.step,
                                partitionedStages(splitting, system.mechanics().isSeparable));
     };

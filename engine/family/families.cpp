@@ -325,7 +325,7 @@ namespace {
 
 /// The Hessian of L in (q, v) at a state; empty where it is not finite, or the system has no coordinates.
 Eigen::MatrixXd hessianAt(const System& system, const State& state) {
-    if (!isMechanical(system)) return {};
+    if (!system.parts.find<Mechanical>()) return {};
     const int d = system.dimension();
     const auto& m = system.mechanics();
     Eigen::VectorXd v(d), gradient(2 * d);

@@ -52,7 +52,7 @@ double rateOf(const std::vector<double>& t, const std::vector<double>& distance,
 Separation separationOf(const Scene& scene, std::size_t scheme, double shift) {
     const ResolvedScene resolved = resolve(scene);
     const ResolvedScheme& spec = resolved.schemes[scheme];
-    if (!isMechanical(*resolved.system))
+    if (!resolved.system->hasCoordinates())
         throw InvalidScene("/model", "two copies need coordinates to start apart in",
                            "a model with coordinates");
     if (!spec.isFixed())

@@ -81,7 +81,7 @@ private:
 
     Nodes nodes() const {
         Nodes nodes;
-        if (!isMechanical(*system_)) return nodes;
+        if (!system_->isMovedOnlyBy<Mechanical>()) return nodes;
         if (const Discretization* const d = spec_.plain()) {
             const bool isFitted = !isTermRule(d->quadrature) && dependsOnStep(d->space);
             if (!hasTable(*d) && !isFitted) return nodes;
@@ -122,7 +122,7 @@ private:
         comparison_.scene = scene_.scene;
         comparison_.system = system_;
         comparison_.isFinished = true;
-        if (!isDone() || !isMechanical(*system_)) return;
+        if (!isDone() || !system_->hasCoordinates()) return;
         const int points = 200 + static_cast<int>(std::min(2000.0, 40 * integrator_->periodsPerStep()));
         std::vector<double> x(after_.x.size());
         for (std::size_t k = 0; k < std::min<std::size_t>(3, system_->coordinates.size()); ++k) {
@@ -223,7 +223,7 @@ private:
 
     /// The largest eigenvalue of the step on the test equation.
     void addAmplification(const std::stop_token& stop) {
-        if (!isMechanical(*system_)) return;
+        if (linearTestOf(*system_) != LinearTest::oscillator) return;
         const LinearStability stability = linearStability(scene_.scene, place_, stop);
         if (stability.points.empty()) return;
         View view{"error", "", ""};
@@ -249,7 +249,7 @@ private:
         page.title = spec_.spec.label;
         addSummary(page);
         addNodes(page);
-        if (const auto formula = isMechanical(*system_) ? formulaOf(scene_) : std::nullopt) {
+        if (const auto formula = system_->isMovedOnlyBy<Mechanical>() ? formulaOf(scene_) : std::nullopt) {
             page.blocks.emplace_back(Document::Heading{"The Lagrangian of this scene"});
             page.blocks.emplace_back(Document::Formulas{equationsOf(*formula)});
         }
@@ -283,7 +283,8 @@ private:
     }
 
     void addNodes(Document& page) {
-        if (!isDone() || nodes_.place.empty() || nodes_.place.size() > 32 || !isMechanical(*system_)) return;
+        if (!isDone() || nodes_.place.empty() || nodes_.place.size() > 32 || !system_->hasCoordinates())
+            return;
         Document::Table t{{"node", "c", "b", system_->independent}, {}};
         for (const Coordinate& q : system_->coordinates) t.columns.push_back(q.symbol);
         std::vector<double> x(after_.x.size());

@@ -491,9 +491,9 @@ bool AtSwitches::checkpoint(Archive& archive) {
 
 std::unique_ptr<Integrator> landingOnSwitches(const System& system, const MakeIntegrator& make) {
     std::unique_ptr<Integrator> plain = make(system);
-    if (!isMechanical(system) || plain->grid() == TimeGrid::free) return plain;
-    auto branches = typed::branchesOf(system.mechanics());
-    if (!branches) return plain;
+    const Mechanical* const mechanics = system.parts.find<Mechanical>();
+    auto branches = mechanics ? typed::branchesOf(*mechanics) : nullptr;
+    if (!branches || plain->grid() == TimeGrid::free) return plain;
     return std::make_unique<AtSwitches>(system, make, std::move(branches), std::move(plain));
 }
 

@@ -124,7 +124,7 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
     if (solver.type == "newton") policy.method = SolverMethod::newton;
     if (solver.type == "fixed-point") {
         policy.method = SolverMethod::fixedPoint;
-        if (isMechanical(system) && !system.mechanics().isSeparable)
+        if (const Mechanical* const m = system.parts.find<Mechanical>(); m && !m->isSeparable)
             throw InvalidScene("/solver/method",
                                "fixed-point iteration alone is for separable Lagrangians, and that of " +
                                    system.id + " is not",

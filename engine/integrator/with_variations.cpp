@@ -58,7 +58,7 @@ std::vector<std::string> namesOf(const System& system, const Size& size) {
     std::vector<std::string> names;
     if (size.columns > 0) {
         names = {"symplecticity", "symplecticity_accumulated", "volume", "floquet_trace"};
-        if (isMechanical(system) && size.n == 2 * system.coordinates.size())
+        if (size.n == 2 * system.coordinates.size())
             for (const Coordinate& c : system.coordinates) names.push_back("floquet_trace." + c.name);
     }
     if (size.vectors > 0) names.insert(names.end(), {"lyapunov", "megno"});
@@ -70,7 +70,7 @@ public:
     WithVariations(std::unique_ptr<Integrator> scheme, const System& system, const Size& size)
         : Accompanied(std::move(scheme), size.carried(), namesOf(system, size)),
           form_(system),
-          isUnitary_(isWave(system)),
+          isUnitary_(system.isUnitary),
           size_(size) {
         const auto n = static_cast<Index>(size.n);
         const std::size_t moved =

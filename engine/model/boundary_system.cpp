@@ -10,6 +10,7 @@ System boundarySystem(std::string id, std::vector<Quantity> columns, std::string
     System s;
     s.id = std::move(id);
     s.independent = "x";
+    s.isSolvedAtOnce = true;
     s.columns = std::move(columns);
     s.error.columns = {{"error", "", std::move(error), ""}};
     s.error.evaluate = [scale](const double* x, const double* reference, double* values) {

@@ -8,12 +8,18 @@
 
 namespace extremal {
 
+std::string_view timeDependentPart(const System& system) {
+    if (const Mechanical* const m = system.parts.find<Mechanical>(); m && m->isTimeDependent)
+        return "the Lagrangian";
+    if (const Wave* const wave = system.parts.find<Wave>(); wave && wave->hamiltonian->isTimeDependent())
+        return "the potential";
+    if (const Constraint* const g = system.parts.find<Constraint>(); g && g->isTimeDependent)
+        return "a constraint";
+    return {};
+}
+
 bool conservesEnergy(const System& system) {
-    const Constraint* const constraint = system.parts.find<Constraint>();
-    if (system.parts.find<Force>() || (constraint && constraint->isTimeDependent)) return false;
-    if (isMechanical(system)) return !system.mechanics().isTimeDependent;
-    if (isWave(system)) return !system.hamiltonian()->isTimeDependent();
-    return true;
+    return timeDependentPart(system).empty() && !system.parts.find<Force>();
 }
 
 }  // namespace extremal

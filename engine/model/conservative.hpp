@@ -2,9 +2,14 @@
 /// Whether the energy of a system stays what it is: only then do its changes say something of a scheme.
 #pragma once
 
+#include <string_view>
+
 #include "engine/model/system.hpp"
 
 namespace extremal {
+
+/// What depends on time, so that the energy changes: "the Lagrangian", "the potential". Empty: nothing does.
+std::string_view timeDependentPart(const System& system);
 
 /// False of Lagrangians, potentials and constraints that depend on time, and where forces act.
 bool conservesEnergy(const System& system);

@@ -182,6 +182,15 @@ void describeBody(System& system, const Body& body) {
             sum += x[10 + i] * x[10 + i] / (2 * body.inertia[i]);
         return sum + bodyPotential(body, x);
     };
+    system.kineticEnergy = [body](double, const double* x) {
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) sum += x[4 + k] * x[4 + k] / body.inertia[k];
+        if (body.dimension == 6)
+            for (std::size_t k = 0; k < 3; ++k) sum += x[13 + k] * x[13 + k] / body.inertia[3 + k];
+        return sum / 2;
+    };
+    constexpr std::size_t attitude = 4;
+    system.blocks = {attitude, {static_cast<std::size_t>(body.stateSize()) - attitude}};
     system.rate = [body](double, const double* x, double* dx) {
         rate(body, x, dx);
         return true;

@@ -16,8 +16,10 @@ namespace extremal {
 
 class SymplecticForm {
 public:
-    explicit SymplecticForm(const System& system)
-        : group_(isBody(system) ? static_cast<std::size_t>(system.body().dimension) : 0) {}
+    explicit SymplecticForm(const System& system) {
+        if (const Body* const body = system.parts.find<Body>())
+            group_ = static_cast<std::size_t>(body->dimension);
+    }
 
     /// Of two variations of length n at the state x.
     double operator()(const double* x, const double* a, const double* b, std::size_t n) const {
@@ -41,7 +43,7 @@ private:
         return sum + p.dot(so3::cross(u, part(b + 3)) - so3::cross(other, part(a + 3)));
     }
 
-    std::size_t group_;  ///< dimension; 0: none
+    std::size_t group_ = 0;  ///< dimension; 0: none
 };
 
 }  // namespace extremal

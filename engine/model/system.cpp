@@ -24,9 +24,34 @@ std::vector<Quantity> stateColumns(const System& system) {
 
 EnergyFunction energyOf(const System& system) {
     if (system.energy) return system.energy;
-    if (!isMechanical(system)) return {};
-    const Mechanics<double> m = system.mechanics();
-    return [m](double t, const double* x) { return m.energy(m.model.get(), t, x, x + m.dimension); };
+    const Mechanical* const found = system.parts.find<Mechanical>();
+    if (!found) return {};
+    return [m = *found](double t, const double* x) { return m.energy(m.model.get(), t, x, x + m.dimension); };
+}
+
+EnergyFunction kineticEnergyOf(const System& system) {
+    if (system.kineticEnergy) return system.kineticEnergy;
+    const Mechanical* const found = system.parts.find<Mechanical>();
+    if (!found) return {};
+    return [m = *found, v = std::vector<double>(static_cast<std::size_t>(found->dimension))](
+               double t, const double* x) mutable {
+        const double* const p = x + m.dimension;
+        if (!m.velocity(m.model.get(), t, x, p, v.data())) return 0.0;
+        double sum = 0;
+        for (std::size_t k = 0; k < v.size(); ++k) sum += p[k] * v[k];
+        return sum / 2;
+    };
+}
+
+StateBlocks blocksOf(const System& system) {
+    if (!system.hasCoordinates()) return system.blocks;
+    const std::size_t d = system.coordinates.size();
+    return {0, {d, d}};
+}
+
+LinearTest linearTestOf(const System& system) {
+    if (system.linearTest != LinearTest::none) return system.linearTest;
+    return system.isMovedOnlyBy<Mechanical>() ? LinearTest::oscillator : LinearTest::none;
 }
 
 ErrorMeasure errorMeasure(const System& system, const State& initial) {
@@ -50,9 +75,8 @@ ErrorMeasure errorMeasure(const System& system, const State& initial) {
 
 bool rateOf(const System& system, double t, const double* x, double* dx) {
     if (system.rate) return system.rate(t, x, dx);
-    if (!isMechanical(system)) return false;
-    const Mechanics<double>& m = system.mechanics();
-    return m.flow && m.flow(m.model.get(), t, x, x + m.dimension, dx, dx + m.dimension);
+    const Mechanical* const m = system.parts.find<Mechanical>();
+    return m && m->flow && m->flow(m->model.get(), t, x, x + m->dimension, dx, dx + m->dimension);
 }
 
 }  // namespace extremal

@@ -2,11 +2,18 @@
 /// A system with its parameters in place: what a scene's "model" turns into.
 ///
 /// A System is a bag of optional capabilities: a field that is empty is something the system does not have
-/// (no exact solution, no conserved momentum, nothing to draw) or says in the usual way of its kind. A system
-/// with coordinates has the state x = (q, p) and says nearly everything through its mechanics; one whose
-/// state is something else (a body with an attitude, a wave function) names its columns and gives energy,
-/// error and start itself. Ask through the functions below the struct, which know the usual ways. One file of
+/// (no exact solution, no conserved momentum, nothing to draw) or says in the usual way. A system with
+/// coordinates has the state x = (q, p) and says nearly everything through its mechanics; one whose state is
+/// something else (a body with an attitude, a wave function) names its columns and gives energy, error and
+/// start itself. Ask through the functions below the struct, which know the usual ways. One file of
 /// model/systems makes one entry.
+///
+/// Whoever runs, measures, writes or shows a system asks for the capability that it needs, never which kind
+/// of problem it is. Four questions are easily taken for one another:
+///     hasCoordinates()                 the state is (q, p)
+///     parts.find<Mechanical>()         there is a Lagrangian to be evaluated
+///     isMovedOnlyBy<Mechanical>()      nothing besides it moves the system, so that its formula is the whole
+///     linearTestOf(system)             the linear motion that steps of its schemes are tested on
 #pragma once
 
 #include <cmath>
@@ -77,7 +84,22 @@ struct FieldSampling {
     std::vector<double> y;                ///< of a rectangle, the nodes in its second direction; else empty
     std::vector<std::string> components;  ///< "re", "im"
     std::size_t places() const { return x.size() * (y.empty() ? 1 : y.size()); }
-    double period = 0;        ///< along x: the first node is met again after it; 0: not periodic
+    /// The two components are the real and the imaginary part of one function; else the first is a real one.
+    bool isComplex = false;
+    /// The graph of a function over an interval, beside which its exact solution is drawn.
+    bool isGraph = false;
+    double period = 0;  ///< along x: the first node is met again after it; 0: not periodic
+    /// The interval that the nodes along x divide into cells, and that along y of a rectangle. Length 0: it
+    /// is what the nodes span.
+    struct Interval {
+        double left = 0, length = 0;
+    };
+    Interval along{}, across{};
+    /// Of functions that vanish at both ends and whose nodes are too far apart for straight lines: makes the
+    /// way from a sample to the same components at the middles of `rows` equal cells of `along`. May be
+    /// empty.
+    using Resampling = std::function<std::vector<double>(const std::vector<double>& sample)>;
+    std::function<Resampling(int rows)> resampling;
     std::size_t further = 0;  ///< values of a sample behind those of the places: for the drawing alone
     std::size_t size() const { return places() * components.size() + further; }
     /// The nodes move: x is where they are before any state is known, and a sample ends with their places
@@ -100,7 +122,8 @@ struct EllipticProblem;
 struct StaticProblem;
 
 // The parts that bind a motion (model/parts.hpp): what schemes are made for. Families and baselines ask for
-// them; whoever shows, measures or writes a system asks for the capabilities of System below.
+// them; whoever shows, measures or writes a system asks for the capabilities of System below, and for the
+// parts of model/parts, which do not bind.
 
 using Mechanical = Mechanics<double>;  ///< a Lagrangian in coordinates: x = (q, p)
 using Body = BodyMechanics<double>;    ///< a Lagrangian on a group
@@ -185,11 +208,26 @@ struct ReducedModel {
     std::function<ReducedMotion(const State& initial)> make;
 };
 
+/// The linear motion that a step of a scheme is tested on (study/linear_stability.hpp).
+enum class LinearTest {
+    none,
+    oscillator,  ///< q'' = -w^2 q
+    phases       ///< i c' = w c
+};
+
+/// Which entries of a state are of one kind, in their order.
+struct StateBlocks {
+    std::size_t attitude = 0;        ///< so many at the beginning are a quaternion of length 1
+    std::vector<std::size_t> sizes;  ///< of the blocks behind them
+};
+
 struct System {
     std::string id;
     std::string independent = "t";  ///< what the schemes go along: time, or a place
     std::string timeUnit;           ///< "s", or empty if dimensionless
     std::string energyUnit;
+    bool isSolvedAtOnce = false;  ///< along a place, from its boundary values
+    bool hasSteps = true;         ///< of time, or distances of knots that schemes choose
 
     Parts parts;
     std::vector<Coordinate> coordinates;  ///< of systems with coordinates: x = (q, p)
@@ -197,6 +235,14 @@ struct System {
     // Systems with another state.
     std::vector<Quantity> columns;  ///< what the first entries of x are: the state columns of every row
     EnergyFunction energy;
+    EnergyFunction kineticEnergy;  ///< the part of it that tells the size of a motion
+    /// How states of other sizes are made from a given one, to find out whether each has an energy. Without
+    /// blocks: every finite state has one, or it is not known how to make others.
+    StateBlocks blocks;
+    /// The state is c, as re and im in turn, and the flow keeps the inner product of states and with it their
+    /// norm, whether the energy changes or not.
+    bool isUnitary = false;
+    LinearTest linearTest = LinearTest::none;
     std::vector<Measure> measures;  ///< what else it measures of its states
     ErrorMeasure phaseError;        ///< of the phase, where a state has one; evaluate empty: none
     ErrorMeasure error;             ///< evaluate empty: the usual one of coordinates
@@ -213,6 +259,7 @@ struct System {
     std::function<bool(const Settings& initial)> givesLevels;
 
     FieldSampling field;
+    std::string elementAxis = "X";  ///< the place of the elements of its mesh
     /// The state of a field at other places, as good as at its nodes: all u, then all u_t. May be empty.
     std::function<void(const double* x, std::span<const double> places, double* values)> at;
     /// What is doubtful in a state, for people ("under-resolved: .."); empty text where nothing is. May be
@@ -237,8 +284,16 @@ struct System {
     std::vector<std::string> timePlots;
 
     int dimension() const { return static_cast<int>(coordinates.size()); }
+    /// Whether the state is x = (q, p), one pair per coordinate; whatever moves it.
+    bool hasCoordinates() const { return !coordinates.empty(); }
+    /// Whether the system has this part, and no other that binds its motion: what is written, drawn or sought
+    /// by this part alone is the whole of it.
+    template <class P>
+    bool isMovedOnlyBy() const {
+        return isTaken(Takes::only<P>(), parts);
+    }
     /// Else it is solved at once along a place, from its boundary values.
-    bool isMotion() const { return !parts.find<EllipticPart>() && !parts.find<StaticPart>(); }
+    bool isMotion() const { return !isSolvedAtOnce; }
     /// A part that the system has. Throws std::logic_error where it does not.
     template <class P>
     const P& part() const {
@@ -251,19 +306,6 @@ struct System {
     const FieldProblem& fieldProblem() const { return *part<ScalarField>().problem; }
 };
 
-/// The part of the system, or null: kindOf<Body>(system).
-template <class Kind>
-const Kind* kindOf(const System& system) {
-    return system.parts.find<Kind>();
-}
-/// Whether a Lagrangian in coordinates is all that moves the system.
-inline bool hasLagrangianAlone(const System& system) {
-    return isTaken(Takes::only<Mechanical>(), system.parts);
-}
-inline bool isMechanical(const System& system) { return kindOf<Mechanical>(system) != nullptr; }
-inline bool isBody(const System& system) { return kindOf<Body>(system) != nullptr; }
-inline bool isWave(const System& system) { return kindOf<Wave>(system) != nullptr; }
-inline bool isField(const System& system) { return kindOf<ScalarField>(system) != nullptr; }
 /// The measure for an observable, or null.
 const Measure* measureOf(const System& system, std::string_view observable);
 
@@ -271,6 +313,12 @@ const Measure* measureOf(const System& system, std::string_view observable);
 std::vector<Quantity> stateColumns(const System& system);
 /// The energy, of the system itself or of its mechanics; empty where there is none. It keeps what it needs.
 EnergyFunction energyOf(const System& system);
+/// The kinetic energy likewise: p . v / 2 of a Lagrangian, 0 where no velocity is found for a momentum.
+EnergyFunction kineticEnergyOf(const System& system);
+/// Those of the system, or q and p.
+StateBlocks blocksOf(const System& system);
+/// That of the system; the oscillator for those that a Lagrangian in coordinates alone moves.
+LinearTest linearTestOf(const System& system);
 /// Whether a sum of squares has neither overflowed nor lost digits to underflow.
 inline bool isSafeSquare(double sum) { return sum > 1e-280 && sum < 1e300; }
 /// |x - y| of d numbers, of any size.

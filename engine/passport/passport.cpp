@@ -16,7 +16,7 @@ namespace extremal {
 namespace {
 
 std::string claimsText(Claims claims, const System& system) {
-    if (!isWave(system)) std::erase(claims.conserves, "norm");  // splittings are for wave functions as well
+    if (!system.isUnitary) std::erase(claims.conserves, "norm");  // splittings are for wave functions as well
     std::vector<std::string> words;
     if (claims.order > 0) words.push_back("order " + std::to_string(claims.order));
     if (claims.isSymmetric) words.emplace_back("symmetric");
@@ -42,7 +42,7 @@ void addKind(const ResolvedScene& scene, const ResolvedScheme& scheme, Document&
     };
     add("scene", scene.scene.title);
     add("system", scene.system->id);
-    if (const auto formula = isMechanical(*scene.system) ? formulaOf(scene) : std::nullopt)
+    if (const auto formula = scene.system->isMovedOnlyBy<Mechanical>() ? formulaOf(scene) : std::nullopt)
         add("Lagrangian", formula->text);
     if (scheme.family) {
         add("family", scheme.family->item.title);

@@ -218,7 +218,7 @@ std::string programOf(const ResolvedScene& scene, std::size_t place, ProgramLang
     const ResolvedScheme& scheme = scene.schemes[place];
     const bool isPython = language == ProgramLanguage::python;
     const System& system = *scene.system;
-    const auto formula = hasLagrangianAlone(system) ? formulaOf(scene) : std::nullopt;
+    const auto formula = system.isMovedOnlyBy<Mechanical>() ? formulaOf(scene) : std::nullopt;
     if (!formula)
         refuse(system.id + " does not say its Lagrangian as a formula",
                "a model of type \"lagrangian\", or one of those that do: " + joinNames(modelsWithFormula()));

@@ -9,9 +9,12 @@ namespace extremal {
 
 std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const ResolvedScheme& scheme,
                                          std::string& reason) {
-    if (!isMechanical(*scene.system)) {
-        reason =
-            "Runge-Kutta tableaus are for systems with coordinates, and " + scene.system->id + " has none.";
+    if (!scene.system->isMovedOnlyBy<Mechanical>()) {
+        reason = scene.system->hasCoordinates()
+                     ? "Runge-Kutta tableaus are for systems that a Lagrangian alone moves, and " +
+                           scene.system->id + " is moved by more."
+                     : "Runge-Kutta tableaus are for systems with coordinates, and " + scene.system->id +
+                           " has none.";
         return nullptr;
     }
     const bool hasOne =

@@ -87,9 +87,10 @@ std::string instabilityAdvice(const ResolvedScheme& scheme, const System& system
 
 /// Whether a straight step from the state leaves the branches that a typed formula has there.
 bool passesSwitch(const System& system, const State& state, double step) {
-    const auto branches = isMechanical(system) ? typed::branchesOf(system.mechanics()) : nullptr;
+    const Mechanical* const found = system.parts.find<Mechanical>();
+    const auto branches = found ? typed::branchesOf(*found) : nullptr;
     if (!branches) return false;
-    const Mechanical& mechanics = system.mechanics();
+    const Mechanical& mechanics = *found;
     SwitchValues values(branches);
     const Eigen::VectorXd start =
         Eigen::Map<const Eigen::VectorXd>(state.x.data(), static_cast<Eigen::Index>(state.x.size()));

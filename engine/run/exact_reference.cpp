@@ -95,8 +95,8 @@ double errorOfExact(const ResolvedScene& resolved, const std::stop_token& stop) 
             ofMesh->ofExact({scene.initial.given, initial, scene.start.value, scene.end.value}, stop);
         error = std::max(error, premise.isViolated ? std::min(2.0, 3 * mesh) : mesh);
     }
-    // Initial data of other kinds are typed as formulas, and wave functions depend on theirs isometrically.
-    if (!system.exactFrom && (isMechanical(system) || isBody(system)))
+    // Other initial data are typed as formulas, and unitary motions depend on theirs isometrically.
+    if (system.isMotion() && !system.exactFrom && !system.isUnitary)
         error =
             std::max({error, sizePart(scene, system, initial), conditionPart(scene, system, initial, stop)});
     return error;

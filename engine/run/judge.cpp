@@ -13,30 +13,6 @@
 namespace extremal {
 namespace {
 
-using OfState = std::function<double(double t, const double* x)>;
-
-OfState kineticEnergyOf(const System& system) {
-    if (isMechanical(system)) {
-        std::vector<double> v(static_cast<std::size_t>(system.dimension()));
-        return [m = system.mechanics(), v](double t, const double* x) mutable {
-            const double* const p = x + m.dimension;
-            if (!m.velocity(m.model.get(), t, x, p, v.data())) return 0.0;
-            double sum = 0;
-            for (std::size_t k = 0; k < v.size(); ++k) sum += p[k] * v[k];
-            return sum / 2;
-        };
-    }
-    if (const Body* body = kindOf<Body>(system))
-        return [body = *body](double, const double* x) {
-            double sum = 0;
-            for (std::size_t k = 0; k < 3; ++k) sum += x[4 + k] * x[4 + k] / body.inertia[k];
-            if (body.dimension == 6)
-                for (std::size_t k = 0; k < 3; ++k) sum += x[13 + k] * x[13 + k] / body.inertia[3 + k];
-            return sum / 2;
-        };
-    return {};
-}
-
 /// Numbers for states to try: the same in every run.
 class Trials {
 public:
@@ -66,23 +42,22 @@ void scatter(std::span<const double> from, std::span<double> x, bool isEven, Tri
 }
 
 /// Whether H of some finite state is not a number; judge.hpp says which are tried.
-bool hasStatesWithoutEnergy(const System& system, const State& start, const OfState& energy,
+bool hasStatesWithoutEnergy(const System& system, const State& start, const EnergyFunction& energy,
                             const std::function<bool(double, const double*)>& hasVelocity) {
     if (system.field && system.field.hasMovingNodes) return true;
-    const bool isSpread = isField(system);
-    if (!isMechanical(system) && !isBody(system) && !isSpread) return false;
+    const StateBlocks blocks = blocksOf(system);
+    if (blocks.sizes.empty()) return false;
     constexpr std::size_t most = 32, least = 4, numbers = 1 << 14;
-    constexpr std::size_t attitude = 4;  // of a body: a quaternion, which has a length
-    const std::size_t fixed = isBody(system) ? attitude : 0, size = start.x.size();
-    const std::size_t halves = isMechanical(system) || isSpread ? 2 : 1, part = (size - fixed) / halves;
+    const std::size_t fixed = blocks.attitude, size = start.x.size();
     std::vector<double> x(start.x);
     Trials trials;
     const std::size_t count = std::clamp(numbers / std::max<std::size_t>(1, size), least, most);
     for (std::size_t i = 0; i < count; ++i) {
         const std::span<const double> from(start.x);
-        for (std::size_t half = 0; half < halves; ++half) {
-            const std::size_t first = fixed + half * part;
+        std::size_t first = fixed;
+        for (const std::size_t part : blocks.sizes) {
             scatter(from.subspan(first, part), std::span(x).subspan(first, part), i % 2 == 0, trials);
+            first += part;
         }
         double length = 0;
         for (std::size_t k = 0; k < fixed; ++k) length = std::hypot(length, x[k] = trials.next() - 0.5);
@@ -110,7 +85,7 @@ Judge::Judge(const System& system, const State& start, double step, bool isEnerg
     if (!std::isfinite(atStart)) energy_ = {};
     hasVelocity_ = velocityTestOf(system);
     hasEdge_ = energy_ && !isEnergySeen && hasStatesWithoutEnergy(system, start, energy_, hasVelocity_);
-    if (isWave(system)) {
+    if (system.isUnitary) {
         const std::size_t size = start.x.size();
         conserved_ = [size](double, const double* x) {
             double sum = 0;

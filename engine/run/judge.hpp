@@ -49,7 +49,8 @@
 ///   * Where H of some finite states is not a number, every node is looked at. Such states are sought once,
 ///     around the start: 32 of them, by the signs of their entries and by sizes from a hundredth to a hundred
 ///     times those of the start (fewer of wide states). No states are tried of moving meshes, which are
-///     looked at everywhere, and of wave functions and membranes, whose H is defined everywhere.
+///     looked at everywhere, and where H is defined everywhere, as that of wave functions and membranes
+///     (System::blocks).
 ///   * Where the run computes H at every node in any case, the one who does so ends it (state_values.hpp);
 ///     `isEnergySeen` tells.
 ///   * Everywhere else H is finite but for overflow, and the run ends at one of the nodes above.

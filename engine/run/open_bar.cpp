@@ -106,8 +106,9 @@ private:
 class Kinks {
 public:
     explicit Kinks(const System& system) : system_(system) {
-        if (!isMechanical(system)) return;
-        if (auto branches = typed::branchesOf(system.mechanics())) values_.emplace(std::move(branches));
+        const Mechanical* const mechanics = system.parts.find<Mechanical>();
+        if (!mechanics) return;
+        if (auto branches = typed::branchesOf(*mechanics)) values_.emplace(std::move(branches));
     }
     bool isPassed(double t, const std::vector<double>& x) {
         if (!values_) return false;

@@ -44,7 +44,8 @@ double switchingPart(const std::function<std::function<ExactSolution()>(const St
                      const std::stop_token& stop) {
     constexpr double roundOff = std::numeric_limits<double>::epsilon(), units = 64 * roundOff;
     constexpr int samples = 199;
-    if (!isMechanical(system) || !typed::branchesOf(system.mechanics())) return 0;
+    const Mechanical* const mechanics = system.parts.find<Mechanical>();
+    if (!mechanics || !typed::branchesOf(*mechanics)) return 0;
     // Every limit is met to the round-off of t only, whatever the step.
     const ExactSolution solution = from(initial)();
     std::vector<double> at(initial.x.size());

@@ -21,8 +21,9 @@ bool isOfStates(const ObservableEntry& entry, const Observer& observer) {
 }  // namespace
 
 std::function<bool(double t, const double* x)> velocityTestOf(const System& system) {
-    if (!isMechanical(system) || system.mechanics().isSeparable) return {};
-    return [m = system.mechanics(), v = std::vector<double>(static_cast<std::size_t>(system.dimension()))](
+    const Mechanical* const found = system.parts.find<Mechanical>();
+    if (!found || found->isSeparable) return {};
+    return [m = *found, v = std::vector<double>(static_cast<std::size_t>(system.dimension()))](
                double t, const double* x) mutable {
         return m.velocity(m.model.get(), t, x, x + m.dimension, v.data());
     };

@@ -172,7 +172,8 @@ void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
     Findings findings;
     if (scheme.baseline && scheme.baseline->check)
         scheme.baseline->check(at, findings);
-    else if (isMechanical(*scene.system) || (scheme.family && scheme.family->frequency))
+    else if (linearTestOf(*scene.system) == LinearTest::oscillator ||
+             (scheme.family && scheme.family->frequency))
         checkStability(at, scheme, findings);
     if (!scheme.properties.caution.empty()) findings.warning("", scheme.properties.caution);
     if (scheme.family && scheme.family->check) scheme.family->check(at, findings);

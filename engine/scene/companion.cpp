@@ -78,9 +78,11 @@ SchemeSpec ofBaseline(const ResolvedScheme& scheme, const System& system) {
         spec.composition = composition;
         return spec;
     }
-    if (!isMechanical(system)) refuse(spec.baseline.type + " is not symmetric, and cannot be composed");
+    constexpr const char* collocation = "gauss-collocation";
+    if (!appliesTo(*findBaseline(collocation), system))
+        refuse(spec.baseline.type + " is not symmetric, and cannot be composed");
     const int stages = std::max(2, order);
-    spec.baseline = {"gauss-collocation", {{"stages", static_cast<double>(stages)}}, {}};
+    spec.baseline = {collocation, {{"stages", static_cast<double>(stages)}}, {}};
     return spec;
 }
 
@@ -88,7 +90,7 @@ SchemeSpec ofBaseline(const ResolvedScheme& scheme, const System& system) {
 
 ResolvedScheme companionOf(const ResolvedScheme& scheme, const System& system) {
     const int inSpace = scheme.baseline ? scheme.baseline->orderInSpace : scheme.properties.orderInSpace;
-    if (inSpace > 0 || isField(system))
+    if (inSpace > 0 || system.error.ofFunction)
         refuse("its error in space is that of the mesh, which both would share");
     const SchemeSpec spec = scheme.isComposed() ? halved(scheme)
                             : scheme.family     ? ofFamily(scheme)
@@ -117,7 +119,7 @@ std::optional<ResolvedScheme> secondCompanionOf(const ResolvedScheme& scheme, co
 }
 
 double unresolvedTurn(const ResolvedScheme& scheme, const System& system, const State& initial) {
-    if (!isMechanical(system) || scheme.isAdaptive()) return 0;
+    if (!system.hasCoordinates() || scheme.isAdaptive()) return 0;
     const double longest = system.fast.frequency > 0 ? 0.5 : 2;
     const double turned = highestFrequency(system, initial) * scheme.spec.step.value;
     return turned > longest ? turned : 0;

@@ -11,7 +11,7 @@ namespace extremal {
 
 std::string localErrorProblem(const ResolvedScheme& scheme, const System& system,
                               const Integrator& integrator) {
-    if (!isMechanical(system)) return "a state that is not of coordinates and momenta";
+    if (!system.hasCoordinates()) return "a state that is not of coordinates and momenta";
     if (!scheme.isFixed()) return "steps that it chooses itself";
     if (integrator.tangentSize() == 0) return "no tangent map";
     if (!integrator.memoryParts().empty())

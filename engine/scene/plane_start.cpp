@@ -115,7 +115,7 @@ struct StartPlane::Region {
 };
 
 std::string startProblem(const System& system, const ViewPlane& plane) {
-    if (!isMechanical(system)) return "need a system with coordinates";
+    if (!system.hasCoordinates()) return "need a system with coordinates";
     const std::vector<Quantity> columns = stateColumns(system);
     const auto x = indexOf(columns, plane.x), y = indexOf(columns, plane.y);
     for (const auto& [place, name] : {std::pair{x, plane.x}, std::pair{y, plane.y}})

@@ -152,7 +152,8 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
         const auto known = [&] {
             return system ? availableObservables(*system) : idsOf(observableCatalog());
         };
-        if (system && isLacking(*system, *name) && dependsOnSymmetry(*name) && isMechanical(*system)) {
+        if (system && isLacking(*system, *name) && dependsOnSymmetry(*name) &&
+            system->isMovedOnlyBy<Mechanical>()) {
             reader.warning(pointer,
                            *name + " is not defined for " + scene.model.type +
                                " with these parameters: it has no symmetry; the columns are left out",

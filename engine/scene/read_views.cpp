@@ -146,7 +146,7 @@ bool ViewReader::applies(const View& view) const {
     if (!missing.empty()) {
         const ObservableEntry* observable = findObservable(findView(view.id)->observable);
         if (observable && missing == observable->item.needs && missing == "a symmetry" &&
-            isMechanical(*system)) {
+            system->isMovedOnlyBy<Mechanical>()) {
             reader.warning(
                 pointer,
                 view.id + " stays empty: " + scene.model.type + " with these parameters has no symmetry",

@@ -24,8 +24,9 @@ using Point = LinearStability::Point;
 class TestEquation {
 public:
     /// Throws InvalidScene where the scheme cannot integrate it.
-    TestEquation(const Scene& scene, std::size_t scheme, const std::string& problem, double frequency)
-        : frequency_(frequency) {
+    TestEquation(const Scene& scene, std::size_t scheme, LinearTest test, const std::string& problem,
+                 double frequency)
+        : test_(test), frequency_(frequency) {
         const ReadScene problemRead = readScene(problem);
         Value document = toValue(problemRead.scene);
         Value own = toValue(scene).find("schemes")->asArray()[scheme];
@@ -44,15 +45,15 @@ public:
         Point point;
         point.z = z;
         step_->setStep(z / frequency_);
-        if (isWave(*systemOf(scene_, resolved())))
-            ofWaves(point);
-        else
+        if (isOscillator())
             ofOscillator(point);
+        else
+            ofWaves(point);
         return point;
     }
 
     const ResolvedScheme& resolved() const { return scene_.schemes.front(); }
-    bool isOscillator() const { return !isWave(*systemOf(scene_, resolved())); }
+    bool isOscillator() const { return test_ == LinearTest::oscillator; }
 
 private:
     bool step(State& state) { return step_->take(state); }
@@ -123,6 +124,7 @@ private:
         return (phase + turn * std::round((z - phase) / turn) - z) / z;
     }
 
+    LinearTest test_;
     double frequency_;
     ResolvedScene scene_;
     State start_;
@@ -130,13 +132,14 @@ private:
 };
 
 TestEquation testEquation(const Scene& scene, std::size_t scheme, const System& system) {
-    if (isMechanical(system))
-        return {scene, scheme,
+    const LinearTest test = linearTestOf(system);
+    if (test == LinearTest::oscillator)
+        return {scene, scheme, test,
                 R"({"extremal":1,"model":{"type":"harmonic-oscillator","m":1,"k":1},"initial":{"q":[1]},
                     "time":{"end":8},"reference":"none","schemes":[{"step":1,"scheme":"midpoint"}]})",
                 1};
-    if (isWave(system))
-        return {scene, scheme,
+    if (test == LinearTest::phases)
+        return {scene, scheme, test,
                 R"json({"extremal":1,"model":{"type":"schrodinger","modes":16,"potential":"-1.25"},
                     "initial":{"psi":{"re":"cos(x)+cos(2*x)","im":"sin(x)+sin(2*x)"}},"time":{"end":8},
                     "reference":"none","schemes":[{"step":1,"baseline":"strang"}]})json",

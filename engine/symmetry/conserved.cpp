@@ -11,7 +11,7 @@ namespace {
 
 /// Built-in systems say what they conserve; the columns of their files do not change by what a search finds.
 bool isSearched(const System& system) {
-    return hasLagrangianAlone(system) && (system.momenta.empty() || system.id == "lagrangian");
+    return system.isMovedOnlyBy<Mechanical>() && (system.momenta.empty() || system.id == "lagrangian");
 }
 
 bool isKnown(const System& system, const std::string& name) {

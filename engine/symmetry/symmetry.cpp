@@ -283,7 +283,7 @@ double Symmetry::momentum(const Mechanical& mechanics, double t, const double* q
 
 std::shared_ptr<const std::vector<Symmetry>> symmetriesOf(const System& system) {
     using All = std::shared_ptr<const std::vector<Symmetry>>;
-    if (!hasLagrangianAlone(system)) return std::make_shared<const std::vector<Symmetry>>();
+    if (!system.isMovedOnlyBy<Mechanical>()) return std::make_shared<const std::vector<Symmetry>>();
     const auto make = [&]() -> All { return std::make_shared<const std::vector<Symmetry>>(search(system)); };
     const std::shared_ptr<const void>& model = system.mechanics().model;
     if (!model) return make();

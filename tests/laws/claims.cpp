@@ -91,8 +91,8 @@ using Invariant = std::function<double(const State&)>;
 
 std::vector<Invariant> momentaOf(const Subject& on) {
     std::vector<Invariant> all;
-    const std::size_t p = isMechanical(on.system) ? on.half() : 0;
-    const double size = isBody(on.system) ? 1 : std::max(1.0, on.scaleQ) * on.scaleP;
+    const std::size_t p = on.system.hasCoordinates() ? on.half() : 0;
+    const double size = on.system.parts.find<Body>() ? 1 : std::max(1.0, on.scaleQ) * on.scaleP;
     for (const MomentumMap& map : on.system.momenta)
         all.push_back([=](const State& s) { return map.value(s.x.data(), s.x.data() + p) / size; });
     return all;
@@ -255,8 +255,8 @@ double returnDefect(const Trial& trial, double each) {
 
 double symplecticDefect(const Trial& trial, double each) {
     if (!trial.isSound(trial.on.time / each)) return unknown;
-    if (isWave(trial.on.system)) return innerProductDefect(trial, each);
-    if (!isBody(trial.on.system)) return canonicalDefect(trial, each);
+    if (trial.on.system.parts.find<Wave>()) return innerProductDefect(trial, each);
+    if (!trial.on.system.parts.find<Body>()) return canonicalDefect(trial, each);
     const Subject& on = trial.on;
     // Angles, momenta in the body, positions, linear momenta, each in the size of all three.
     Eigen::VectorXd own = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(on.start.x.size() - 4));
@@ -340,7 +340,7 @@ void measure(Found& found, const Trial& trial) {
         if (std::isnan(defect)) defect = measured([&] { return symplecticDefect(trial, each); });
     found.derivatives += std::isfinite(defect) ? 1 : 0;
     if (defect > found.largestSymplectic) found.largestSymplectic = defect;
-    if (trial.claims.isSymplectic && defect > (isWave(trial.on.system) ? unitary : symplectic))
+    if (trial.claims.isSymplectic && defect > (trial.on.system.parts.find<Wave>() ? unitary : symplectic))
         note(found, trial, "not symplectic", defect);
 }
 
@@ -358,8 +358,8 @@ void findGaps(Found& found, const CatalogueScheme& scheme) {
 void findModesty(Found& found, const CatalogueScheme& scheme, const Subject& on) {
     const Claims& c = scheme.claims();
     // Splittings for coordinates may gain an order on wave functions: on smooth potentials.
-    const bool isBorrowed =
-        isWave(on.system) && scheme.scheme.baseline && scheme.scheme.fits(systemNamed("harmonic-oscillator"));
+    const bool isBorrowed = on.system.parts.find<Wave>() && scheme.scheme.baseline &&
+                            scheme.scheme.fits(systemNamed("harmonic-oscillator"));
     if (found.orders > 0 && found.nearestOrder > half && !isBorrowed)
         found.broken.push_back("the order is better than claimed everywhere");
     if (!c.isOneStep) return;

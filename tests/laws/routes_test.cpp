@@ -91,7 +91,7 @@ private slots:
     void degreeOneWithTheMidpointIsTheMidpointRule() {
         for (const ModelEntry& e : modelCatalog()) {
             const System s = systemNamed(e.item.id);
-            if (!isMechanical(s)) continue;
+            if (!s.hasCoordinates()) continue;
             const auto discretization = makeIntegrator(s, polynomialPair(1, {"midpoint", {}, {}}), {0, 0.02});
             const auto rule = findBaseline("implicit-midpoint")->make(s, {0.02, {}, 0, {}});
             const double difference = stepDifference(s, *discretization, *rule);
@@ -202,7 +202,7 @@ private slots:
     void gaussPairsAreGaussCollocationOfHamiltonsEquations_data() {
         QTest::addColumn<QString>("model");
         for (const ModelEntry& e : modelCatalog())
-            if (isMechanical(systemNamed(e.item.id)))
+            if (systemNamed(e.item.id).hasCoordinates())
                 QTest::newRow(e.item.id.c_str()) << QString::fromStdString(e.item.id);
     }
     void gaussPairsAreGaussCollocationOfHamiltonsEquations() {

@@ -127,10 +127,10 @@ Subject subjectOf(std::string name, const System& system, const State& start, do
 }
 
 SubjectKind kindOfSubject(const System& system) {
-    return isMechanical(system) ? SubjectKind::coordinates
-           : isBody(system)     ? SubjectKind::body
-           : isWave(system)     ? SubjectKind::wave
-                                : SubjectKind::other;
+    return system.hasCoordinates()     ? SubjectKind::coordinates
+           : system.parts.find<Body>() ? SubjectKind::body
+           : system.parts.find<Wave>() ? SubjectKind::wave
+                                       : SubjectKind::other;
 }
 
 std::vector<const Preset*> onePerModel() {
@@ -152,8 +152,8 @@ std::vector<Subject> everySubject(SubjectKind kind) {
         const System system = makeSystem(scene);
         // The orders of fields are those of the mesh and the step together: laws.claims_fields.
         // Membranes: tests/engine/family/asynchronous.
-        if (kindOfSubject(system) != kind || !system.isMotion() || isField(system) ||
-            kindOf<Membrane>(system))
+        if (kindOfSubject(system) != kind || !system.isMotion() || system.parts.find<ScalarField>() ||
+            system.parts.find<Membrane>())
             continue;
         double longest = 0;
         for (const SchemeSpec& scheme : scene.schemes) longest = std::max(longest, 40 * scheme.step.value);

@@ -27,7 +27,7 @@ struct Subject {
     std::size_t half() const { return start.x.size() / 2; }
     double scaleOf(std::size_t i) const { return hasHalves() && i >= half() ? scaleP : scaleQ; }
     /// Whether a state is (q, p), and the canonical form is that of these.
-    bool hasHalves() const { return !isBody(system) && !isWave(system); }
+    bool hasHalves() const { return !system.parts.find<Body>() && !system.parts.find<Wave>(); }
     /// The state at the time of another.
     State exactAt(double t) const;
 };

@@ -127,7 +127,7 @@ std::optional<Measured> measured(const Ground& on, const CatalogueScheme& c) {
         const double size = M->cwiseAbs().maxCoeff();
         m.size = std::max(m.size, size);
         m.defect = std::max(m.defect, formDefect(form, before.x.data(), state.x.data(), *M) / (size * size));
-        const bool isLinear = isWave(on.system);
+        const bool isLinear = on.system.parts.find<Wave>();
         const auto D = differencedMap(on.system, step, before, n, isLinear ? 0.1 : on.delta);
         if (!D) return {};
         m.difference = std::max(m.difference, (*M - *D).cwiseAbs().maxCoeff() / size);
@@ -157,8 +157,9 @@ private slots:
             if (!m) continue;
             ++schemes;
             // Collocation by roots is unitary as far as its eigenvalues are known: 3e-13.
-            const bool isByRoots = isWave(on.system) && (c.name.find(" roots") != std::string::npos ||
-                                                         c.name.starts_with("space-time"));
+            const bool isByRoots =
+                on.system.parts.find<Wave>() &&
+                (c.name.find(" roots") != std::string::npos || c.name.starts_with("space-time"));
             const double allowed = isByRoots ? 1e-12 : 1e-14;
             const bool isRight = m->difference <= 1e-8 && (!m->isClaimed || m->defect <= allowed);
             if (!isRight) {
@@ -316,7 +317,7 @@ private slots:
     void theFormOfABodyDependsOnItsMomentum() {
         const System plain = systemNamed("kepler");
         for (const Ground& on : grounds_) {
-            if (!isBody(on.system)) continue;
+            if (!on.system.parts.find<Body>()) continue;
             const auto all = everythingOn(on.system, on.start, on.step);
             const auto lie =
                 std::find_if(all.begin(), all.end(), [](const auto& c) { return c.name == "lie-2"; });

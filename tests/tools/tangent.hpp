@@ -25,7 +25,7 @@ public:
     State displaced(const State& from, const Eigen::VectorXd& by) const {
         State to = from;
         const auto n = static_cast<std::size_t>(by.size());
-        if (isBody(system_)) {
+        if (system_.parts.find<Body>()) {
             if (n == 6) place<RotationGroup<double>>(to, by);
             if (n == 12) place<MotionGroup<double>>(to, by);
         } else {
@@ -35,7 +35,7 @@ public:
     }
     Eigen::VectorXd difference(const State& from, const State& to, std::size_t n) const {
         Eigen::VectorXd v(static_cast<Eigen::Index>(n));
-        if (isBody(system_)) {
+        if (system_.parts.find<Body>()) {
             if (n == 6) v = between<RotationGroup<double>>(from, to);
             if (n == 12) v = between<MotionGroup<double>>(from, to);
         } else {
@@ -48,7 +48,7 @@ public:
 private:
     /// Of wave functions real and imaginary parts take turns in a state.
     std::size_t at(std::size_t i, std::size_t n) const {
-        if (!isWave(system_)) return i;
+        if (!system_.parts.find<Wave>()) return i;
         return i < n / 2 ? 2 * i : 2 * (i - n / 2) + 1;
     }
     template <class G>

@@ -37,12 +37,13 @@ Value::Array rounded(const std::vector<double>& values) {
 std::optional<ProfileDrawing> ProfileDrawing::of(const Scene& scene) {
     try {
         const System system = makeSystem(scene);
-        if (!isField(system) || !system.draw) return {};
+        const ScalarField* const field = system.parts.find<ScalarField>();
+        if (!field || !system.draw) return {};
         const State start = initialState(scene, system);
         ProfileDrawing drawing;
         drawing.unit_ = heightOfOne(system);
         if (!(drawing.unit_ > 0)) return {};
-        const FieldProblem& problem = system.fieldProblem();
+        const FieldProblem& problem = *field->problem;
         drawing.isPeriodic_ = problem.mesh.isPeriodic();
         drawing.isHeld_ = problem.mesh.boundary == Boundary::dirichlet;
         std::vector<double> sample(system.field.size());

@@ -88,7 +88,7 @@ StartEdits editsForMove(const Scene& scene, const View& view, const System& syst
 }
 
 StartEdits editsForStartAt(const System& system, const SchemeResult& result, double t) {
-    if (!isMechanical(system))
+    if (!system.hasCoordinates())
         return {{}, QObject::tr("the state of this model is more than coordinates and momenta")};
     const std::vector<Quantity> columns = stateColumns(system);
     const auto times = result.trajectory["t"];

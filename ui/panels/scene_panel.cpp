@@ -297,7 +297,7 @@ void ScenePanel::rebuild() {
 void ScenePanel::startFromTwoPositions() {
     const auto resolved = workspace_.resolved();
     const System& system = *resolved->system;
-    if (resolved->scene.initial.second == Initial::Second::position || !isMechanical(system)) return;
+    if (resolved->scene.initial.second == Initial::Second::position || !system.hasCoordinates()) return;
     for (const ResolvedScheme& scheme : resolved->schemes) {
         const SchemeSpec& spec = scheme.spec;
         if (spec.tolerance) continue;
@@ -323,7 +323,7 @@ void ScenePanel::startFromTwoPositions() {
 void ScenePanel::startFromMomentum() {
     const auto resolved = workspace_.resolved();
     const System& system = *resolved->system;
-    if (resolved->scene.initial.second == Initial::Second::momentum || !isMechanical(system)) return;
+    if (resolved->scene.initial.second == Initial::Second::momentum || !system.hasCoordinates()) return;
     const State& start = resolved->initial;
     const auto half = start.x.begin() + system.dimension();
     Value initial{Value::Object{}};

@@ -17,9 +17,9 @@ namespace {
 
 constexpr int debounceMs = 250;
 
-/// Empty for systems without coordinates.
+/// Empty where a Lagrangian in coordinates is not all that moves the system.
 std::string textFor(const System& system) {
-    if (!isMechanical(system)) return {};
+    if (!system.isMovedOnlyBy<Mechanical>()) return {};
     try {
         return contained("/model", [&] { return symmetryText(system); });
     } catch (const InvalidScene&) {

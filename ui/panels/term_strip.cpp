@@ -26,9 +26,10 @@ std::vector<std::string> termsOf(const Scene& scene, const SchemeSpec& spec) {
     const Family* const family = familyOf(spec.space);
     if (!family || !family->describeOn) return {};
     const System system = makeSystem(scene);
-    if (!isMechanical(system) || !appliesTo(*family, system)) return {};
+    const Mechanical* const mechanics = system.parts.find<Mechanical>();
+    if (!mechanics || !appliesTo(*family, system)) return {};
     std::vector<std::string> names;
-    for (const auto& term : termsOf(system.mechanics())) names.push_back(term.name);
+    for (const auto& term : termsOf(*mechanics)) names.push_back(term.name);
     if (names.size() < 2) return {};
     return names;
 }

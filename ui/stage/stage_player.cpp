@@ -125,7 +125,7 @@ void StagePlayer::prepare() {
         const auto& scheme = track.result->scheme;
         track.system = scheme && scheme->ownSystem ? scheme->ownSystem.get() : nullptr;
     }
-    if (isField(system_)) {
+    if (system_.field.isGraph) {
         const State start = initialState(comparison_->scene, system_);
         exact_ = exactSolution(comparison_->scene, system_, start);
         exactWidth_ = start.x.size();

@@ -269,7 +269,7 @@ void RunControl::decide() {
     const Scene wanted = unknownPart(workspace_.scene(), store_);
     const auto resolved = workspace_.resolved();
     const bool isEstimated = !resolved || cost_.knows(wanted) ||
-                             (isMechanical(*resolved->system) && cost_.predict(wanted) < surelyCheap);
+                             (resolved->system->hasCoordinates() && cost_.predict(wanted) < surelyCheap);
     if (isEstimated) return decideWith(wanted, 0);
     trial_ = std::stop_source();
     runInBackground([self = QPointer(this), wanted, resolved, cost = cost_, stop = trial_.get_token()] {

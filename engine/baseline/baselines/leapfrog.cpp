@@ -24,18 +24,19 @@ BaselineEntry leapfrog() {
         "a wave function or a field"};
     e.takes = Takes::only<Wave, ScalarField>();
     e.claimsOn = [](const System& system) {
-        if (isField(system)) return Claims{2, true, true, {"multisymplectic form", "momentum"}, true};
+        if (system.parts.find<ScalarField>())
+            return Claims{2, true, true, {"multisymplectic form", "momentum"}, true};
         return Claims{2, true, true, {"bilinear form"}, false};
     };
     e.orderInSpace = 2;
     e.stabilityLimit = 1;
     e.check = [](const SchemeCase& scheme, Findings& findings) {
-        if (isField(scheme.system))
+        if (scheme.system.parts.find<ScalarField>())
             return checkFieldStep(*lumpedForm(scheme.system), 2, scheme, "leapfrog", findings);
         checkWaveLimit(1, waveFrequency(scheme.system, 0), scheme.step, scheme.allowsUnstable, findings);
     };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        if (isField(system)) return makeExplicitField(lumpedForm(system), options.step);
+        if (system.parts.find<ScalarField>()) return makeExplicitField(lumpedForm(system), options.step);
         if (system.hamiltonian()->isTimeDependent())
             throw InvalidScene("/baseline", "leapfrog needs a potential that does not depend on t", "strang");
         requirePeriodic(system, "/baseline", "leapfrog",

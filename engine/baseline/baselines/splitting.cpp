@@ -41,7 +41,7 @@ BaselineEntry splitting() {
     e.make = [](const System& system, const BaselineOptions& options) {
         const auto typed = typedSplitting(options.settings);
         const Splitting& made = typed->splitting;
-        if (isWave(system)) return makeWaveSplitting(system, options.step, made);
+        if (system.parts.find<Wave>()) return makeWaveSplitting(system, options.step, made);
         const bool isSeparable = system.mechanics().isSeparable;
         if (!isSeparable && (made.isNystrom || !made.stages.front().isKick || made.stages.size() % 2 == 0))
             throw InvalidScene(

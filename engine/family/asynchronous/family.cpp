@@ -46,7 +46,7 @@ const std::shared_ptr<const FieldProblem>& barOf(const System& system) {
 const std::shared_ptr<const MembraneProblem>& membraneOf(const System& system) {
     return system.part<Membrane>().problem;
 }
-bool isMembrane(const System& system) { return kindOf<Membrane>(system) != nullptr; }
+bool isMembrane(const System& system) { return system.parts.find<Membrane>() != nullptr; }
 
 Levels levelsOf(const System& system, const Settings& space) {
     const double C = space.number("courant");
@@ -91,7 +91,7 @@ std::optional<ImpliedStep> impliedStep(const Settings& space, const Settings& mo
     const ModelEntry* entry = findModel(model.type);
     if (!entry) return {};
     const System system = entry->make(model);
-    if (!isField(system) && !isMembrane(system)) return {};
+    if (!system.parts.find<ScalarField>() && !isMembrane(system)) return {};
     return ImpliedStep{levelsOf(system, space).largest(), {}, !isReal(space)};
 }
 

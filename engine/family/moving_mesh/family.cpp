@@ -81,7 +81,7 @@ bool isConstrained(const Settings& space) { return space.text("method") == "mult
 bool hasEnergyTimes(const Settings& space) { return space.text("times") == "energy"; }
 
 bool isMovable(const System& system) {
-    if (!isField(system)) return false;
+    if (!system.parts.find<ScalarField>()) return false;
     const FieldProblem& problem = system.fieldProblem();
     return !problem.isBody && !problem.coefficient && problem.elastic.isLinear();
 }

@@ -84,10 +84,12 @@ void checkSolver(WaveSolver solver, const Hamiltonian& h) {
 }  // namespace
 
 bool hasDirichletBoundary(const System& system) {
-    return isWave(system) && !system.hamiltonian()->isPeriodic();
+    return system.parts.find<Wave>() && !system.hamiltonian()->isPeriodic();
 }
 
-bool hasFullMatrix(const System& system) { return isWave(system) && !system.hamiltonian()->isSplit(); }
+bool hasFullMatrix(const System& system) {
+    return system.parts.find<Wave>() && !system.hamiltonian()->isSplit();
+}
 
 void requirePeriodic(const System& system, const std::string& pointer, const std::string& what,
                      const std::string& hint) {

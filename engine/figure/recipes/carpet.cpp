@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "engine/figure/build.hpp"
-#include "engine/model/wave/hamiltonian.hpp"
 #include "engine/scene/bind.hpp"
 
 namespace extremal::recipes {
@@ -14,20 +13,13 @@ namespace {
 
 constexpr int mostColumns = 800, mostRows = 400, interpolatedRows = 256;
 
-/// Both parts at equal cells, from the nodes of a Dirichlet boundary, which are not equally spaced: N
-/// numbers, then N.
-std::vector<double> resampled(const Eigen::MatrixXd& to, const std::vector<double>& values) {
-    const Eigen::MatrixXd parts = to * Eigen::Map<const Eigen::MatrixXd>(values.data(), to.cols(), 2);
-    return {parts.data(), parts.data() + parts.size()};
-}
-
-/// sqrt of the integral of |psi|^2 over y, at the nodes along x.
-std::vector<double> marginal(const wave::Grid& grid, const std::vector<double>& values) {
-    const auto columns = static_cast<std::size_t>(grid.nx), n = values.size() / 2;
+/// sqrt of the integral of |psi|^2 or u^2 over y, at the nodes along x.
+std::vector<double> marginal(const FieldSampling& field, const std::vector<double>& values) {
+    const std::size_t columns = field.x.size(), n = field.places();
     std::vector<double> sums(columns);
     for (std::size_t j = 0; j < n; ++j)
-        sums[j % columns] += values[j] * values[j] + values[n + j] * values[n + j];
-    for (double& sum : sums) sum = std::sqrt(sum * grid.y.length / grid.ny);
+        sums[j % columns] += values[j] * values[j] + (field.isComplex ? values[n + j] * values[n + j] : 0);
+    for (double& sum : sums) sum = std::sqrt(sum * field.across.length / static_cast<double>(field.y.size()));
     return sums;
 }
 
@@ -52,12 +44,13 @@ std::vector<double> atRows(const FieldSampling& field, const std::vector<double>
 
 HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, double end) {
     const FieldSampling& field = system.field;
-    const bool isScalar = isField(system) || kindOf<Membrane>(system);
     const std::vector<Frame>& frames = *framesOf(scheme);
-    const bool isUneven = isWave(system) && !system.hamiltonian()->isPeriodic();
+    const bool isRectangle = !field.y.empty(), isComplex = field.isComplex && !isRectangle;
+    const bool isScalar = !field.isComplex && !isRectangle;
+    const bool isUneven = static_cast<bool>(field.resampling);
+    const FieldSampling::Resampling evenly =
+        isUneven ? field.resampling(interpolatedRows) : FieldSampling::Resampling();
     const std::size_t n = isUneven ? interpolatedRows : field.x.size();
-    const Eigen::MatrixXd to =
-        isUneven ? system.hamiltonian()->resampling(interpolatedRows) : Eigen::MatrixXd();
     HeatMap heat;
     heat.columns = static_cast<int>(std::min<std::size_t>(frames.size(), mostColumns));
     heat.rows = static_cast<int>(std::min<std::size_t>(n, mostRows));
@@ -68,11 +61,9 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
     heat.top = field.x.back() + step;
     if (isScalar) heat.top = field.period > 0 ? heat.bottom + field.period : field.x.back();
     if (isUneven) {
-        heat.bottom = system.hamiltonian()->domain().left;
-        heat.top = heat.bottom + system.hamiltonian()->domain().length;
+        heat.bottom = field.along.left;
+        heat.top = heat.bottom + field.along.length;
     }
-    const bool isRectangle = isWave(system) && system.hamiltonian()->dimension() == 2;
-    const bool isComplex = field.components.size() == 2 && field.components[0] == "re" && !isRectangle;
     const double last = frames.back().t, seconds = end - start;
     for (int column = 0; column < heat.columns; ++column) {
         const double t = start + seconds * (column + 0.5) / heat.columns;
@@ -80,11 +71,11 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
                                       [](const Frame& f, double at) { return f.t < at; });
         if (after == frames.end() || (after != frames.begin() && t - (after - 1)->t < after->t - t)) --after;
         const bool isThere = t <= last + seconds / heat.columns;
-        const std::vector<double> made =
-            isUneven      ? resampled(to, *after->values)
-            : isScalar    ? atRows(field, *after->values, heat.bottom, heat.top, heat.rows)
-            : isRectangle ? marginal(system.hamiltonian()->grid(), *after->values)
-                          : std::vector<double>();
+        const std::vector<double> made = isUneven ? evenly(*after->values)
+                                         : isScalar
+                                             ? atRows(field, *after->values, heat.bottom, heat.top, heat.rows)
+                                         : isRectangle ? marginal(field, *after->values)
+                                                       : std::vector<double>();
         const std::vector<double>& values = made.empty() ? *after->values : made;
         for (int row = 0; row < heat.rows; ++row) {
             const auto j = isScalar
@@ -132,8 +123,8 @@ Figure makeCarpet(const FigureContext& context) {
         if (own.hasMovingNodes) figure.add(pathsOf(own, *framesOf(*scheme)));
         const std::string most = " · at most " + shortNumber(figure.heat()->high);
         if (!figure.heat()->hues.empty()) figure.subtitle = "|ψ|, the colour is its phase" + most;
-        if (isField(*context.system) || kindOf<Membrane>(*context.system)) figure.subtitle = "u" + most;
-        if (!context.system->field.y.empty()) figure.subtitle = "√∫|ψ|² dy" + most;
+        if (!own.isComplex) figure.subtitle = "u" + most;
+        if (!own.y.empty()) figure.subtitle = (own.isComplex ? "√∫|ψ|² dy" : "√∫u² dy") + most;
     } else if (context.system && !context.system->field) {
         figure.message = "The model is not a field";
     }

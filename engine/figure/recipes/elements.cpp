@@ -12,7 +12,7 @@ Figure makeElements(const FigureContext& context) {
     const std::string show = context.view.keys.text("show");
     const bool isUpdates = show == "updates", isEnergy = show == "energy";
     Figure figure = startFigure(context, "Elements");
-    figure.x.title = context.system && kindOf<Membrane>(*context.system) ? "r" : "X";
+    figure.x.title = context.system ? context.system->elementAxis : "X";
     figure.y = logAxis(isUpdates ? "updates" : isEnergy ? "energy" : "step");
     for (const auto& scheme : context.comparison.schemes) {
         const ElementClocks* clocks = scheme->products.find<ElementClocks>();

@@ -48,12 +48,10 @@ Figure makeEnergy(const FigureContext& context) {
     addChance(figure, context);
     const std::string trends = trendsOf(context.comparison, scale);
     const bool known = !trends.empty();
-    const bool isForced = context.system && !conservesEnergy(*context.system);
+    const std::string_view driven = context.system ? timeDependentPart(*context.system) : std::string_view();
     figure.subtitle = trends;
-    if (known && isForced)
-        figure.subtitle =
-            "no invariant: " + std::string(isWave(*context.system) ? "the potential" : "the Lagrangian") +
-            " depends on time";
+    if (known && !driven.empty())
+        figure.subtitle = "no invariant: " + std::string(driven) + " depends on time";
     std::vector<std::pair<double, std::string>> largest;
     if (isAgainstSteps(context.view) && scale > 0)
         for (const Series& s : figure.series())

@@ -96,8 +96,8 @@ Figure makePolhode(const FigureContext& context) {
     figure.axes = AxisStyle::none;
     figure.x = {"Π / |Π(0)|, seen from a side", false, false, std::pair{-1.25, 1.25}};
     figure.y = {"", false, false, std::pair{-1.2, 1.2}};
-    const bool hasBody = context.system && isBody(*context.system);
-    if (!hasBody) {
+    const Body* const body = context.system ? context.system->parts.find<Body>() : nullptr;
+    if (!body) {
         figure.message = "Only rigid bodies have a polhode";
         finishFigure(figure, context, "Polhode");
         return figure;
@@ -112,10 +112,10 @@ Figure makePolhode(const FigureContext& context) {
     const double size = std::sqrt(dot(start, start));
     if (hasStart && size == 0) figure.message = "The body starts at rest: it has no momentum";
     const Eye eye(start);
-    const bool isFree = context.system->body().isFree();
+    const bool isFree = body->isFree();
     if (size > 0) {
         addOutline(figure);
-        if (isFree) addEnergyCurves(figure, eye, context.system->body().inertia);
+        if (isFree) addEnergyCurves(figure, eye, body->inertia);
         addAxes(figure, eye);
     }
     for (const auto& scheme : context.comparison.schemes) {

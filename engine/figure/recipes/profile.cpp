@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/figure/build.hpp"
-#include "engine/model/wave/hamiltonian.hpp"
+#include "engine/model/parts/potential_levels.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/premise.hpp"
 
@@ -44,15 +44,35 @@ Series startOf(const SchemeResult& scheme, const FieldSampling& field, const std
     return s;
 }
 
+/// Both components at equally spaced points and the ends, where they vanish.
+struct EvenSamples {
+    std::vector<double> x, first, second;
+};
+
+EvenSamples evenSamplesOf(const FieldSampling& field, const std::vector<double>& values) {
+    constexpr int rows = 400;
+    const std::vector<double> all = field.resampling(rows)(values);
+    EvenSamples even{{field.along.left}, {0}, {0}};
+    for (int row = 0; row < rows; ++row) {
+        even.x.push_back(field.along.left + field.along.length * (row + 0.5) / rows);
+        even.first.push_back(all[static_cast<std::size_t>(row)]);
+        even.second.push_back(all[static_cast<std::size_t>(rows + row)]);
+    }
+    even.x.push_back(field.along.left + field.along.length);
+    even.first.push_back(0);
+    even.second.push_back(0);
+    return even;
+}
+
 /// V, scaled to the height of the picture, as a guide for the eye.
-void addPotential(Figure& figure, const Hamiltonian& h, double height) {
-    const auto& V = h.potential();
+void addPotential(Figure& figure, const PotentialLevels& levels, double height) {
+    const std::vector<double>& V = *levels.V;
     const auto [low, high] = std::minmax_element(V.begin(), V.end());
     if (!(*high > *low)) return;
     Series s;
     s.label = "V (scaled)";
     s.style = 7;
-    s.x = h.x();
+    s.x = *levels.x;
     for (const double v : V) s.y.push_back(height * (v - *low) / (*high - *low));
     figure.add(std::move(s));
 }
@@ -75,20 +95,19 @@ void addExact(Figure& figure, const FigureContext& context, double t) {
 }
 
 /// The modulus with the phase as its colour, or one part.
-HeatMap heatOver(const Hamiltonian& h, const std::vector<double>& values, Part part) {
-    const wave::Grid& grid = h.grid();
-    const std::size_t n = values.size() / 2;
+HeatMap heatOver(const FieldSampling& field, const std::vector<double>& values, Part part) {
+    const std::size_t n = field.places();
     HeatMap heat;
-    heat.columns = grid.nx;
-    heat.rows = grid.ny;
+    heat.columns = static_cast<int>(field.x.size());
+    heat.rows = static_cast<int>(field.y.size());
     // A node is in the middle of its cell.
-    heat.left = grid.x.left - grid.x.length / grid.nx / 2;
-    heat.right = heat.left + grid.x.length;
-    heat.bottom = grid.y.left - grid.y.length / grid.ny / 2;
-    heat.top = heat.bottom + grid.y.length;
-    for (int column = 0; column < grid.nx; ++column)
-        for (int row = 0; row < grid.ny; ++row) {
-            const auto j = static_cast<std::size_t>(column + row * grid.nx);
+    heat.left = field.along.left - field.along.length / heat.columns / 2;
+    heat.right = heat.left + field.along.length;
+    heat.bottom = field.across.left - field.across.length / heat.rows / 2;
+    heat.top = heat.bottom + field.across.length;
+    for (int column = 0; column < heat.columns; ++column)
+        for (int row = 0; row < heat.rows; ++row) {
+            const auto j = static_cast<std::size_t>(column + row * heat.columns);
             heat.values.push_back(valueOf(part, values[j], values[n + j]));
             if (part == Part::modulus)
                 heat.hues.push_back(std::atan2(values[n + j], values[j]) / (2 * std::numbers::pi));
@@ -103,12 +122,13 @@ Figure makePlaneProfile(const FigureContext& context) {
     figure.x.title = "x";
     figure.y.title = "y";
     figure.aspect = Aspect::equal;
-    const Shown shown = shownParts(context.view).front();
+    const FieldSampling& field = context.system->field;
+    const Shown shown = field.isComplex ? shownParts(context.view).front() : Shown{Part::real, "u"};
     if (const SchemeResult* scheme =
             schemeOf(context, [](const SchemeResult& s) { return framesOf(s) != nullptr; })) {
         const Frame& last = framesOf(*scheme)->back();
         figure.title = "Profile of " + scheme->spec.label;
-        figure.add(heatOver(*context.system->hamiltonian(), *last.values, shown.part));
+        figure.add(heatOver(field, *last.values, shown.part));
         figure.x.range = {figure.heat()->left, figure.heat()->right};
         figure.y.range = {figure.heat()->bottom, figure.heat()->top};
         figure.subtitle = std::string(shown.symbol) +
@@ -120,49 +140,45 @@ Figure makePlaneProfile(const FigureContext& context) {
 }
 
 Figure makeProfile(const FigureContext& context) {
-    if (context.system && extremal::isWave(*context.system) &&
-        context.system->hamiltonian()->dimension() == 2)
-        return makePlaneProfile(context);
+    if (context.system && !context.system->field.y.empty()) return makePlaneProfile(context);
     Figure figure = startFigure(context, "Profile");
     figure.x.title = "x";
-    const bool isWave = context.system && extremal::isWave(*context.system);
-    const std::vector<Shown> parts = isWave ? shownParts(context.view) : std::vector<Shown>(1);
-    figure.y.title = !isWave ? "u" : parts.size() > 1 ? "ψ" : parts.front().symbol;
+    const bool isComplex = context.system && context.system->field.isComplex;
+    const std::vector<Shown> parts = isComplex ? shownParts(context.view) : std::vector<Shown>(1);
+    figure.y.title = !isComplex ? "u" : parts.size() > 1 ? "ψ" : parts.front().symbol;
     double height = 0;
     for (const auto& scheme : context.comparison.schemes) {
         if (!context.system || !context.system->field || !framesOf(*scheme)) continue;
         const FieldSampling& field = systemOf(context, *scheme).field;
         const auto& values = *framesOf(*scheme)->back().values;
         const std::size_t n = field.x.size();
-        const bool isUneven = isWave && !context.system->hamiltonian()->isPeriodic();
-        const EvenSamples even =
-            isUneven ? evenSamples(*context.system->hamiltonian(), values.data(), 400) : EvenSamples{};
-        const double* const re = isUneven ? even.re.data() : values.data();
-        const double* const im = isUneven ? even.im.data() : values.data() + n;
+        const EvenSamples even = field.resampling ? evenSamplesOf(field, values) : EvenSamples{};
+        const double* const re = field.resampling ? even.first.data() : values.data();
+        const double* const im = field.resampling ? even.second.data() : values.data() + n;
         for (const Shown& shown : parts) {
             Series s = startOf(*scheme, field, values);
-            if (isUneven) s.x = even.x;
+            if (field.resampling) s.x = even.x;
             if (parts.size() > 1) s.part = shown.symbol;
             if (&shown != &parts.front()) s.tone = Tone::pale;
             for (std::size_t j = 0; j < s.x.size(); ++j)
-                s.y.push_back(isWave ? valueOf(shown.part, re[j], im[j]) : re[j]);
+                s.y.push_back(isComplex ? valueOf(shown.part, re[j], im[j]) : re[j]);
             height = std::max(height, maxMagnitude(s.y));
             figure.add(std::move(s));
         }
-        if (!isWave || figure.series().size() > parts.size()) continue;
+        if (!isComplex || figure.series().size() > parts.size()) continue;
         figure.subtitle = "at t = " + shortNumber(framesOf(*scheme)->back().t, 4);
         if (parts.size() > 1) figure.subtitle += ", Im ψ is pale";
     }
     if (context.system && !context.system->field) figure.message = "The model is not a field";
-    if (context.system && isField(*context.system) && !figure.series().empty()) {
+    if (context.system && context.system->field.isGraph && !figure.series().empty()) {
         double t = 0;
         for (const auto& scheme : context.comparison.schemes)
             if (framesOf(*scheme)) t = framesOf(*scheme)->back().t;
         figure.subtitle = "at t = " + shortNumber(t, 4);
         addExact(figure, context, t);
     }
-    if (isWave && height > 0 && !context.system->field.x.empty())
-        addPotential(figure, *context.system->hamiltonian(), height);
+    const auto* const levels = context.system ? context.system->parts.find<PotentialLevels>() : nullptr;
+    if (levels && height > 0 && !context.system->field.x.empty()) addPotential(figure, *levels, height);
     finishFigure(figure, context, "Profile over space");
     return figure;
 }

@@ -19,6 +19,7 @@ FieldSampling samplingOf(const Shared& problem) {
     FieldSampling f;
     f.x = problem->nodes.x;
     f.components = {"u", "u_t"};
+    f.isGraph = true;
     f.period = problem->mesh.isPeriodic() ? problem->mesh.length() : 0;
     f.sample = [n = 2 * f.x.size()](const double* x, double* values) { std::copy_n(x, n, values); };
     return f;
@@ -229,6 +230,7 @@ System makeFieldSystem(Shared problem, double amplitude) {
         return form->kineticEnergy(x + form->size()) + form->energy(x);
     };
     s.parts.set(premiseCheckOf(problem));
+    s.blocks.sizes.assign(2, static_cast<std::size_t>(problem->size()));
     s.error = errorOf(problem);
     s.field = samplingOf(problem);
     s.at = [problem](const double* x, std::span<const double> places, double* values) {

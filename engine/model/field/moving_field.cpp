@@ -22,6 +22,7 @@ FieldSampling movingSampling(const SharedProblem& problem) {
     FieldSampling f;
     f.x = problem->nodes.x;
     f.components = {"u", "u_t"};
+    f.isGraph = true;
     f.hasMovingNodes = true;
     f.further = f.x.size();
     f.sample = [problem](const double* x, double* values) {

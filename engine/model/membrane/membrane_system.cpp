@@ -174,6 +174,7 @@ System makeMembraneSystem(SharedMembrane problem, double amplitude) {
         };
     };
     s.field = samplingOf(problem);
+    s.elementAxis = "r";
     s.isSpatial = true;
     s.draw = [problem, unit = 0.5 / amplitude](const double* values, Drawing& drawing) {
         drawMembrane(*problem, unit, values, drawing);

@@ -34,9 +34,23 @@ ErrorMeasure errorOf(int n) {
 
 FieldSampling samplingOf(const Shared& h) {
     FieldSampling f;
+    const wave::Grid& grid = h->grid();
     f.x = h->x();
-    if (h->dimension() == 2) f.y = h->y();
+    f.along = {grid.x.left, grid.x.length};
+    if (h->dimension() == 2) {
+        f.y = h->y();
+        f.across = {grid.y.left, grid.y.length};
+    }
     f.components = {"re", "im"};
+    f.isComplex = true;
+    if (!h->isPeriodic())
+        f.resampling = [h](int rows) -> FieldSampling::Resampling {
+            return [to = h->resampling(rows)](const std::vector<double>& sample) -> std::vector<double> {
+                const Eigen::MatrixXd parts =
+                    to * Eigen::Map<const Eigen::MatrixXd>(sample.data(), to.cols(), 2);
+                return {parts.data(), parts.data() + parts.size()};
+            };
+        };
     f.sample = [h](const double* x, double* values) {
         const auto n = static_cast<std::size_t>(h->size());
         std::vector<Complex> psi(n);
@@ -71,6 +85,8 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
     const Shared h = recent.get(settings, [&] { return make(settings); });
     s.parts.set(Wave{h});
     addWaveParts(s, h);
+    s.isUnitary = true;
+    s.linearTest = LinearTest::phases;
     s.measures = waveMeasures(h);
     s.phaseError = wavePhaseError(h->size());
     s.energy = [h](double t, const double* x) { return h->energy(t, coefficients(x)); };

@@ -12,7 +12,7 @@ ObservableEntry energy() {
     e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.",
               {},       {},       ""};
     e.takes = plainProblems().with<Constraint, Force>();
-    e.suits = [](const System& system) { return isMechanical(system) || system.energy; };
+    e.suits = [](const System& system) { return static_cast<bool>(energyOf(system)); };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"energy", "H", context.system.energyUnit, {}, {}},
@@ -20,7 +20,8 @@ ObservableEntry energy() {
         o.extreme = 1;
         const EnergyFunction energy = energyOf(context.system);
         const double start = energy(context.initial.t, context.initial.x.data());
-        if (context.system.energy)
+        const Mechanical* const mechanics = context.system.parts.find<Mechanical>();
+        if (context.system.energy || !mechanics)
             o.evaluate = [energy, start](const NodeBlock& nodes, double* values, std::size_t stride) {
                 for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
                     values[0] = energy(nodes.t(i), nodes.x(i));
@@ -28,8 +29,7 @@ ObservableEntry energy() {
                 }
             };
         else
-            o.evaluate = [m = context.system.mechanics(), start](const NodeBlock& nodes, double* values,
-                                                                 std::size_t stride) {
+            o.evaluate = [m = *mechanics, start](const NodeBlock& nodes, double* values, std::size_t stride) {
                 for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
                     values[0] = m.energy(m.model.get(), nodes.t(i), nodes.x(i), nodes.x(i) + m.dimension);
                     values[1] = values[0] - start;

@@ -70,7 +70,8 @@ ObservableEntry multiplier() {
               "coordinates, or a field"};
     e.takes = Takes::only<Mechanical, ScalarField>();
     e.bind = [](const ObserveContext& context) {
-        if (isField(context.system)) return observeQuantity(context, {"multiplier", "max |λ|", "", {}, {}});
+        if (!context.system.hasCoordinates())
+            return observeQuantity(context, {"multiplier", "max |λ|", "", {}, {}});
         Observer o;
         const auto& coordinates = context.system.coordinates;
         const std::string unit = coordinates.size() == 1 ? coordinates.front().momentumUnit : "";

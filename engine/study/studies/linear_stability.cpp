@@ -33,7 +33,8 @@ StudyTable intervalsOf(const LinearStudy& study) {
     StudyTable table{"linear-stability-intervals", {"label", "from", "to", "growth_per_step"}, {}};
     for (const LinearStudy::Row& row : study.rows()) {
         const ResolvedScheme& scheme = study.scene().schemes[row.scheme];
-        if (!row.isKnown || !row.result.reason.empty() || !isMechanical(*systemOf(study.scene(), scheme)))
+        if (!row.isKnown || !row.result.reason.empty() ||
+            linearTestOf(*systemOf(study.scene(), scheme)) != LinearTest::oscillator)
             continue;
         const auto stability = stabilityOf(scheme);
         if (!stability) continue;

@@ -10,7 +10,7 @@ ViewEntry step() {
             .scales = logAgainstTime,
             .takes = Takes::everything(),
             .missing = [](const View&, const System& system) {
-                return std::string(system.parts.find<EllipticPart>() ? "a motion, or knots" : "");
+                return std::string(system.hasSteps ? "" : "a motion, or knots");
             }};
 }
 

@@ -42,7 +42,7 @@ private slots:
         };
         spin.momenta = {{"kept", "k", "", [](const double* x, const double*) { return x[1]; }}};
         const State start{0, 0, {1, 5}};
-        QVERIFY(!isMechanical(spin));
+        QVERIFY(!spin.hasCoordinates());
         QCOMPARE(stateColumns(spin).size(), std::size_t(1));
         for (const auto& [id, values] : {std::pair<const char*, std::vector<double>>{"energy", {14, 7}},
                                          {"error", {0.5}},

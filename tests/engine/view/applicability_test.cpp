@@ -37,12 +37,13 @@ ReadScene exampleOf(const ModelEntry& entry, const Value::Array& views, const st
 }
 
 std::string schemeFor(const System& system) {
-    if (kindOf<EllipticPart>(system)) return "elliptic-multiscale";
-    if (kindOf<StaticPart>(system)) return "free-knots";
-    if (isWave(system)) return "schrodinger-gauss-1";
-    if (kindOf<Membrane>(system)) return "asynchronous-dyadic";
-    if (isField(system)) return system.fieldProblem().isBody ? "asynchronous-dyadic" : "multisymplectic-1";
-    return isBody(system) ? "lie-2" : "galerkin-gauss-2";
+    if (system.parts.find<EllipticPart>()) return "elliptic-multiscale";
+    if (system.parts.find<StaticPart>()) return "free-knots";
+    if (system.parts.find<Wave>()) return "schrodinger-gauss-1";
+    if (system.parts.find<Membrane>()) return "asynchronous-dyadic";
+    if (system.parts.find<ScalarField>())
+        return system.fieldProblem().isBody ? "asynchronous-dyadic" : "multisymplectic-1";
+    return system.parts.find<Body>() ? "lie-2" : "galerkin-gauss-2";
 }
 
 Value::Array observablesOf(const System& system) {
@@ -109,7 +110,7 @@ private slots:
                 fitting.push_back(asked(view.item.id, entry.exampleStep));
                 continue;
             }
-            if (missing == "a symmetry" && isMechanical(system)) {
+            if (missing == "a symmetry" && system.hasCoordinates()) {
                 QVERIFY(read.errors.empty());
                 const auto own = std::find_if(read.warnings.begin(), read.warnings.end(),
                                               [](const Problem& p) { return p.pointer == "/views/0"; });
