@@ -85,6 +85,16 @@ expect(header_of_its_family engine/family/lie/a.cpp "#include \"engine/family/li
 expect(header_in_a_baseline engine/baseline/a.cpp "#include \"engine/family/wave/wave.hpp\"\n" "")
 expect(header_of_all_families engine/run/a.cpp "#include \"engine/family/scheme.hpp\"\n" "")
 
+expect(kind_of_problem engine/run/a.cpp "bool b = isWave(system);\n" "isWave asks for the kind")
+expect(kind_by_template ui/stage/a.cpp "if (!kindOf<Body>(*system)) return;\n" "kindOf asks for the kind")
+expect(kind_in_a_family engine/family/lie/a.cpp "bool b = kindOf<Body>(system);\n" "")
+expect(kind_in_other_words engine/run/a.cpp "bool isWave = false;\nint b = isWaved(1) + pageKindOf<int>(2);\n" "")
+expect(lookup_as_test engine/run/a.cpp "if (system.parts.find<Wave>()) run();\n" "find<Wave> is not kept")
+expect(lookup_as_bool engine/run/a.cpp "f(a[0]);\nconst bool b = s.parts.find<Body>() != nullptr;\n" "find<Body> is not kept")
+expect(lookup_of_a_part engine/run/a.cpp
+    "if (const Body* const b = a[0].parts.find<Body>(); b && b->isFree())\n    f(b);\nconst Wave* w = s ? s->parts.find<Wave>() : nullptr;\n" "")
+expect(lookup_of_what_does_not_bind engine/run/a.cpp "if (!system.parts.find<MeshError>()) return;\n" "")
+
 # Declared low and defined high: the definition of `listed` is in another folder, that of `here` is not.
 expect(defined_elsewhere engine/scene/a.hpp "${header}\nnamespace extremal {\nint listed(int a,\n           int b = {});\n}\n"
     "a.hpp:1: declares scene/listed")

@@ -118,6 +118,35 @@ function(extremal_family_violations root path includes out)
     set(${out} "${violations}" PARENT_SCOPE)
 endfunction()
 
+# The parts that a problem may be made of alone. Families, baselines and the problems themselves are made for them; all
+# others ask a system for the capability that they need, or for a part in order to use it: `p = s.parts.find<Body>()`.
+set(problem_parts Mechanical Body Wave ScalarField Membrane EllipticPart StaticPart)
+
+# Where a file asks which kind of problem a system is, and nothing more.
+function(extremal_kind_violations root path out)
+    set(violations "")
+    if(NOT path MATCHES "^engine/(family|baseline|model)/")
+        file(READ ${root}/${path} text)
+        if(text MATCHES "[^A-Za-z0-9_](isMechanical|isBody|isWave|isField|hasLagrangianAlone)\\(|[^A-Za-z0-9_](kindOf)<")
+            list(APPEND violations
+                "${path}:1: ${CMAKE_MATCH_1}${CMAKE_MATCH_2} asks for the kind of a problem: ask for what is needed of it")
+        endif()
+        # Statements, without what would reach CMake's lists.
+        string(REGEX REPLACE "[][\\]" " " text "${text}")
+        string(REPLACE ";" "}" text "${text}")
+        list(JOIN problem_parts "|" kinds)
+        string(REGEX MATCHALL "[^{}]*find<(${kinds})>\\(\\)" lookups "${text}")
+        foreach(lookup IN LISTS lookups)
+            if(NOT lookup MATCHES "\\* ?(const )?[A-Za-z_]+ =[^=]")
+                string(REGEX MATCH "find<[A-Za-z]+>" found "${lookup}")
+                list(APPEND violations
+                    "${path}:1: ${found} is not kept: use the part, or ask for what is needed of the system")
+            endif()
+        endforeach()
+    endif()
+    set(${out} "${violations}" PARENT_SCOPE)
+endfunction()
+
 function(extremal_tree_violations root out)
     set(violations "")
     file(GLOB_RECURSE files RELATIVE ${root}
@@ -160,6 +189,8 @@ function(extremal_tree_violations root out)
             list(APPEND violations ${long})
             extremal_family_violations(${root} ${path} "${includes}" named)
             list(APPEND violations ${named})
+            extremal_kind_violations(${root} ${path} kinds)
+            list(APPEND violations ${kinds})
             if(path MATCHES "^engine/family/([^/]+)/family.cpp$" AND NOT CMAKE_MATCH_1 IN_LIST families)
                 list(APPEND violations "${path}:1: a family whose names are not listed in tests/tree/rules.cmake")
             endif()
