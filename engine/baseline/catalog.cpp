@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/family/parts/conditions.hpp"
 #include "engine/family/wave/wave.hpp"
 
 namespace extremal {
@@ -13,6 +15,10 @@ const BaselineEntry* findBaseline(std::string_view id) {
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const BaselineEntry& e) { return e.item.id == id; });
     return found == all.end() ? nullptr : &*found;
+}
+
+bool appliesTo(const BaselineEntry& entry, const System& system) {
+    return isTaken(entry.takes, system.parts) && meetsCondition(entry.parts, system);
 }
 
 bool canIntegrate(const BaselineEntry& entry, const System& system) {
@@ -34,8 +40,10 @@ bool canIntegrate(const BaselineEntry& entry, const System& system) {
 }
 
 Claims claimsOf(const BaselineEntry& entry, const Settings& settings, const System* system) {
-    if (system && entry.claimsOn) return entry.claimsOn(*system);
-    return entry.claims ? entry.claims(settings) : entry.item.claims.value_or(Claims{});
+    if (const auto* const onSystem = entry.parts.find<ClaimsOnSystem>(); system && onSystem)
+        return onSystem->of(*system);
+    const auto* const ofKeys = entry.parts.find<ClaimsOfKeys>();
+    return ofKeys ? ofKeys->of(settings) : entry.item.claims.value_or(Claims{});
 }
 
 }  // namespace extremal

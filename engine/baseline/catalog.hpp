@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/catalog.hpp"
@@ -14,8 +16,6 @@
 
 namespace extremal {
 
-struct Tableau;
-
 struct BaselineOptions {
     double step = 0;       ///< fixed-step schemes
     State start = {};      ///< of the run; x is empty where it is not known
@@ -23,33 +23,21 @@ struct BaselineOptions {
     Settings settings;     ///< the baseline's own keys
 };
 
+/// What every baseline says; what only some have are parts (engine/baseline/parts.hpp).
 struct BaselineEntry {
     CatalogItem item;
-    bool isAdaptive = false;  ///< takes "tolerance" instead of "step"
-    /// Of those that are not adaptive. free: "step" is the first step.
+    /// landing: it takes "tolerance" instead of "step". free: "step" is its first step.
     TimeGrid grid = TimeGrid::fixed;
-    Takes takes = Takes::only<Mechanical>();        ///< the binding parts that its steps understand
-    std::function<bool(const System&)> suits;       ///< of systems of these parts; empty: all do
-    std::function<Claims(const Settings&)> claims;  ///< where they depend on its keys; else item.claims
-    std::function<Claims(const System&)> claimsOn;  ///< where they depend on the kind of system
-    int orderInSpace = 0;  ///< of fields on meshes, which compositions in time do not raise; 0: there is none
-    double stabilityLimit =
-        0;  ///< largest step * frequency on the harmonic oscillator; infinity: none; 0: not fixed-step
-    /// The step as a Runge-Kutta method, of its formula where steps are chosen by an error control. Throws
-    /// InvalidScene (pointer relative to the scheme) where the keys make no such method. Empty: it is not
-    /// one.
-    std::function<std::shared_ptr<const Tableau>(const Settings&)> tableau;
-    /// The same limit where it depends on its keys; empty: stabilityLimit.
-    std::function<double(const Settings&)> stabilityLimitOf;
-    /// What is wrong or doubtful in its keys, pointers relative to the scheme; null: nothing beyond their
-    /// ranges.
-    void (*examine)(const Settings&, Findings&) = nullptr;
-    /// What stands against a step beyond the stability limit of the harmonic oscillator; null: nothing.
-    void (*check)(const SchemeCase&, Findings&) = nullptr;
+    Takes takes = Takes::only<Mechanical>();  ///< the binding parts that its steps understand
     /// Throws InvalidScene (pointer relative to the scheme) where it cannot.
     std::function<std::unique_ptr<Integrator>(const System&, const BaselineOptions&)> make;
+    Parts parts;
+
+    bool isAdaptive() const { return grid == TimeGrid::landing; }
 };
 
+/// Whether it takes every part that the system needs, and the system meets its condition.
+bool appliesTo(const BaselineEntry& entry, const System& system);
 /// Whether a baseline can integrate a system: it applies, and where few do, its maker does not refuse.
 bool canIntegrate(const BaselineEntry& entry, const System& system);
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_method.hpp"
 #include "engine/integrator/shared_force.hpp"
@@ -233,13 +234,13 @@ std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, 
 BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage> stages) {
     BaselineEntry e;
     e.item = std::move(item);
-    e.stabilityLimit = 2;
+    e.parts.set(OscillatorLimit(2));
     // Of separable systems, and exact: fractions are 1 and 1/2.
-    e.tableau = [stages](const Settings&) {
+    e.parts.set(BaselineTableau{[stages](const Settings&) {
         std::vector<SplittingStage> flows;
         for (const PartitionedStage& s : stages) flows.push_back({movesMomentum(s.map), s.fraction});
         return tableauOf(flows, 1e-30);
-    };
+    }});
     e.make = [stages = std::move(stages)](const System& system, const BaselineOptions& options) {
         return makePartitioned(system.mechanics(), options.step, stages);
     };

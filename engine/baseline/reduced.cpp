@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/family/parts/conditions.hpp"
 #include "engine/baseline/classical_table.hpp"
 
 namespace extremal {
@@ -102,7 +103,7 @@ BaselineEntry reducedBaseline(const std::string& id, const std::string& title,
                               const std::string& description) {
     BaselineEntry e;
     e.item = {id, title, description, {}, Claims{0, false, false, {}, false}, "the spring pendulum"};
-    e.suits = [id](const System& system) { return find(system, id) != nullptr; };
+    e.parts.set(SystemCondition{[id](const System& system) { return find(system, id) != nullptr; }});
     e.make = [id](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Reduced>(*find(system, id), options.step);
     };

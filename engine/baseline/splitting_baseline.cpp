@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "engine/baseline/partitioned.hpp"
+#include "engine/baseline/parts.hpp"
+#include "engine/family/parts/conditions.hpp"
 #include "engine/baseline/wave_splitting.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 
@@ -35,12 +37,12 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
               Claims{splitting.order, true, true, {"momentum", "norm"}},
               splitting.isNystrom ? "a separable Lagrangian" : ""};
     e.takes = Takes::only<Mechanical, Wave>();
-    e.suits = [isNystrom = splitting.isNystrom](const System& system) {
+    e.parts.set(SystemCondition{[isNystrom = splitting.isNystrom](const System& system) {
         return system.parts.find<Wave>() || !isNystrom || system.mechanics().isSeparable;
-    };
+    }});
     // Fractions are printed to 15 digits.
-    e.stabilityLimit = firstEdge(OscillatorStep(tableauOf(splitting.stages, 1e-15)).intervals());
-    e.tableau = [splitting](const Settings&) { return tableauOf(splitting.stages, 1e-15); };
+    e.parts.set(OscillatorLimit(firstEdge(OscillatorStep(tableauOf(splitting.stages, 1e-15)).intervals())));
+    e.parts.set(BaselineTableau{[splitting](const Settings&) { return tableauOf(splitting.stages, 1e-15); }});
     e.make = [splitting](const System& system, const BaselineOptions& options) {
         if (system.parts.find<Wave>()) return makeWaveSplitting(system, options.step, splitting);
         return makePartitioned(system.mechanics(), options.step,

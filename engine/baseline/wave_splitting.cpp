@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/family/wave/wave.hpp"
 #include "engine/family/wave/wave_step.hpp"
 
@@ -116,7 +117,7 @@ BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::stri
               Claims{splitting.order, true, true, {"norm"}},
               "a wave function"};
     e.takes = Takes::only<Wave>();
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.make = [splitting](const System& system, const BaselineOptions& options) {
         return makeWaveSplitting(system, options.step, splitting);
     };

@@ -15,7 +15,14 @@
 #include "engine/family/frequency.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/table_of.hpp"
-#include "engine/integrator/at_switches.hpp"
+#include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/described_on_system.hpp"
+#include "engine/family/parts/nodes.hpp"
+#include "engine/family/parts/solver_methods.hpp"
+#include "engine/family/parts/starts.hpp"
+#include "engine/family/parts/tables.hpp"
+#include "engine/family/parts/tensor_rules.hpp"
+#include "engine/family/parts/variant.hpp"
 #include "engine/quadrature/tensor.hpp"
 
 namespace extremal {
@@ -117,9 +124,13 @@ const Family* familyOf(const Settings& space) {
     return nullptr;
 }
 
+bool appliesTo(const Family& family, const System& system) {
+    return isTaken(family.takes, system.parts) && meetsCondition(family.parts, system);
+}
+
 const Family* familyFor(const System& system) {
     for (const Family& family : families())
-        if (family.choices && !family.isVariant && appliesTo(family, system)) return &family;
+        if (!family.parts.find<Variant>() && appliesTo(family, system)) return &family;
     return nullptr;
 }
 
@@ -128,7 +139,7 @@ std::vector<ChoiceGrid> choiceGrids(const System& system) {
     if (!main) return {};
     std::vector<ChoiceGrid> grids{main->choices(system)};
     for (const Family& family : families()) {
-        if (&family == main || !family.choices || !appliesTo(family, system)) continue;
+        if (&family == main || !appliesTo(family, system)) continue;
         ChoiceGrid further = family.choices(system);
         const bool fit = !further.cells.empty() && std::all_of(further.cells.begin(), further.cells.end(),
                                                                [&](const ChoiceGrid::Cell& cell) {
@@ -136,7 +147,7 @@ std::vector<ChoiceGrid> choiceGrids(const System& system) {
                                                                });
         if (!fit) continue;
         ChoiceGrid& grid = grids.front();
-        if (!family.isVariant || further.width() != grid.width()) {
+        if (!family.parts.find<Variant>() || further.width() != grid.width()) {
             grids.push_back(std::move(further));
             continue;
         }
@@ -175,10 +186,21 @@ const std::vector<CatalogItem>& spaceCatalog() {
     return items;
 }
 
+const std::vector<std::string>& solverMethods(const Family& family) {
+    static const std::vector<std::string> none;
+    const auto* const methods = family.parts.find<SolverMethods>();
+    return methods ? methods->ids : none;
+}
+
+TimeGrid timeGridOf(const Settings& space) {
+    const auto* const own = familyPart<OwnTimeGrid>(space);
+    return own ? own->of(space) : TimeGrid::fixed;
+}
+
 Properties describe(const Discretization& discretization) {
     static Memory<Properties> known("properties");
     const auto& [space, quadrature, solver] = discretization;
-    if (isTensorRule(quadrature) && !knownFamily(space).takesTensorRules) {
+    if (isTensorRule(quadrature) && !knownFamily(space).parts.find<TensorRules>()) {
         Properties p;
         refuseRule(quadrature, p);
         return p;
@@ -188,8 +210,9 @@ Properties describe(const Discretization& discretization) {
 
 Properties describe(const Discretization& discretization, const System& system) {
     const Family* const family = familyOf(discretization.space);
-    if (family && family->describeOn && appliesTo(*family, system))
-        if (auto known = family->describeOn(discretization, system)) return *std::move(known);
+    const auto* const onSystem = family ? family->parts.find<DescribedOnSystem>() : nullptr;
+    if (onSystem && appliesTo(*family, system))
+        if (auto known = onSystem->describe(discretization, system)) return *std::move(known);
     return describe(discretization);
 }
 
@@ -208,13 +231,15 @@ std::string mismatch(const Discretization& discretization, const System& system)
     if (!appliesTo(*family, system))
         return discretization.space.type + " needs " + family->item.needs + ", and " + system.id +
                " has none";
-    return family->mismatch ? family->mismatch(discretization, system) : std::string();
+    const auto* const condition = family->parts.find<SchemeCondition>();
+    return condition ? condition->mismatch(discretization, system) : std::string();
 }
 
 Discretization withEstimates(const Discretization& discretization, const System& system, const State& start) {
     const Family* const family = familyOf(discretization.space);
-    const bool estimates = family && family->estimate && appliesTo(*family, system);
-    return estimates ? family->estimate(discretization, system, start) : discretization;
+    const auto* const estimate = family ? family->parts.find<StartEstimate>() : nullptr;
+    return estimate && appliesTo(*family, system) ? estimate->of(discretization, system, start)
+                                                  : discretization;
 }
 
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& discretization,
@@ -229,7 +254,7 @@ std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretiz
                            fitting.empty() ? "a baseline" : "it has " + joinNames(fitting));
     }
     const std::string& method = discretization.solver.type;
-    const auto& methods = family.solverMethods;
+    const auto& methods = solverMethods(family);
     if (!method.empty() && method != "auto" &&
         std::find(methods.begin(), methods.end(), method) == methods.end())
         throw InvalidScene("/solver/method",
@@ -238,46 +263,15 @@ std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretiz
     return family.make(system, discretization, clock.step);
 }
 
-ReferencePlan referenceBy(std::string description, const System& system, const Discretization& scheme) {
-    ReferencePlan plan;
-    plan.description = std::move(description);
-    plan.make = [system, scheme](double step) {
-        return landingOnSwitches(system, [scheme, step](const System& smooth) {
-            return makeIntegrator(smooth, scheme, {0, step});
-        });
-    };
-    return plan;
-}
-
-std::vector<ReferencePlan> referencePlans(const System& system, const State& start, double duration) {
-    std::vector<ReferencePlan> all;
-    const Family* const own = familyFor(system);
-    const auto add = [&](const Family& family) {
-        if (!family.reference || !appliesTo(family, system)) return;
-        if (ReferencePlan plan = family.reference(system, start, duration); plan.make)
-            all.push_back(std::move(plan));
-    };
-    for (const Family& family : families())
-        if (!family.choices || family.isVariant) add(family);
-    if (own) add(*own);
-    return all;
-}
-
-std::unique_ptr<Integrator> trustedIntegrator(const System& system, const State& start, double step) {
-    const Family* const family = familyFor(system);
-    if (!family || !family->reference)
-        throw InvalidScene("/reference", "no scheme of references is known for " + system.id, "take none");
-    return family->reference(system, start, step).make(step);
-}
-
 bool hasTable(const Discretization& discretization) {
-    const Family* const family = familyOf(discretization.space);
-    return family && family->table && (!family->hasTable || family->hasTable(discretization));
+    const auto* const tables = familyPart<Tables>(discretization.space);
+    return tables && tables->isOne(discretization);
 }
 
 Table<double> tableOf(const Settings& space, const Settings& quadrature) {
     static Memory<Table<double>> known("table");
-    return known.get(space, quadrature, [&] { return knownFamily(space).table(space, quadrature); });
+    return known.get(space, quadrature,
+                     [&] { return knownFamily(space).parts.find<Tables>()->make(space, quadrature); });
 }
 
 std::optional<Discretization> namedScheme(std::string_view id) {

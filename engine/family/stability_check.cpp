@@ -10,6 +10,7 @@
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/family/parts/tables.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"
 #include "engine/integrator/oscillator_step.hpp"
@@ -135,8 +136,8 @@ OscillatorStep tableStep(const Discretization& discretization) {
     // A tableau has a row and a column for each node, the action for each unknown of the step.
     constexpr int mostStages = 100;
     const bool isTall = hasTable(discretization) && tableOf(space, quadrature).nodes() > mostStages;
-    if (const Family* const family = familyOf(space); family && family->tableau && !isTall) try {
-            return OscillatorStep(family->tableau(discretization, 1));
+    if (const auto* const tables = familyPart<Tables>(space); tables && !isTall) try {
+            return OscillatorStep(tables->tableau(discretization, 1));
         } catch (const InvalidScene&) {
             // The step is not a Runge-Kutta method.
         }

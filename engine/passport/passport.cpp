@@ -70,7 +70,7 @@ void addKind(const ResolvedScene& scene, const ResolvedScheme& scheme, Document&
 }
 
 void addAction(const ResolvedScheme& scheme, Document& page) {
-    if (!scheme.family || !scheme.family->written) return;
+    if (!scheme.family) return;
     const WrittenAction w = scheme.family->written(scheme.discretization);
     page.blocks.emplace_back(Document::Heading{"The discrete action"});
     page.blocks.emplace_back(Document::Paragraph{w.meaning});

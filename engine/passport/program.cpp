@@ -10,6 +10,7 @@
 #include "engine/core/markup.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/family/parts/tables.hpp"
 #include "engine/model/typed/source_code.hpp"
 #include "engine/passport/program_text.hpp"
 #include "engine/passport/scene_formula.hpp"
@@ -94,8 +95,9 @@ Method methodOf(const ResolvedScene& scene, const ResolvedScheme& scheme) {
     }
     if (scheme.family) {
         const Discretization& d = scheme.discretization;
-        if (!scheme.family->tableau || !(hasTable(d) || dependsOnStep(d.space))) refuse(reason);
-        method.table = scheme.family->table(withStep(d.space, scheme.spec.step.value), d.quadrature);
+        const auto* const tables = scheme.family->parts.find<Tables>();
+        if (!tables || !(hasTable(d) || dependsOnStep(d.space))) refuse(reason);
+        method.table = tables->make(withStep(d.space, scheme.spec.step.value), d.quadrature);
         return method;
     }
     if (!method.tableau) refuse(reason);

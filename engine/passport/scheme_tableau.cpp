@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/family/parts/tables.hpp"
 
 namespace extremal {
 
@@ -17,9 +19,9 @@ std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const Resol
                            " has none.";
         return nullptr;
     }
-    const bool hasOne =
-        scheme.family ? scheme.family->tableau != nullptr : static_cast<bool>(scheme.baseline->tableau);
-    if (!hasOne) {
+    const auto* const tables = scheme.family ? scheme.family->parts.find<Tables>() : nullptr;
+    const auto* const own = scheme.baseline ? scheme.baseline->parts.find<BaselineTableau>() : nullptr;
+    if (!tables && !own) {
         reason = scheme.family
                      ? "Steps of the family \"" + scheme.family->item.title +
                            "\" are no Runge-Kutta method with constant coefficients."
@@ -29,8 +31,8 @@ std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const Resol
         return nullptr;
     }
     try {
-        auto tableau = scheme.family ? scheme.family->tableau(scheme.discretization, scheme.spec.step.value)
-                                     : scheme.baseline->tableau(scheme.spec.baseline);
+        auto tableau = tables ? tables->tableau(scheme.discretization, scheme.spec.step.value)
+                              : own->of(scheme.spec.baseline);
         if (!scheme.isComposed()) return tableau;
         Tableau whole = composed(*tableau, {scheme.parts.begin(), scheme.parts.end()});
         whole.known = std::max(whole.known, 1e-15);  // of the parts

@@ -7,6 +7,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/family/parts/advice.hpp"
 #include "engine/integrator/switch_values.hpp"
 #include "engine/run/judge.hpp"
 #include "engine/scene/scheme_stability.hpp"
@@ -105,8 +106,9 @@ std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step
                       const State& initial, const State& state, std::optional<double> undefinedAt) {
     if (outcome == Outcome::stopped || outcome == Outcome::converged) return {};
     const Family* const family = scheme.family ? scheme.family : familyFor(system);
-    if (family && family->advice && !undefinedAt)
-        if (const std::string own = family->advice(outcome); !own.empty()) return own;
+    const auto* const advice = family && !undefinedAt ? family->parts.find<Advice>() : nullptr;
+    if (advice)
+        if (const std::string own = advice->after(outcome); !own.empty()) return own;
     if (scheme.baseline && scheme.grid == TimeGrid::free) {
         // Its step is a function of the state, and no first step keeps the density from what it does there.
         if (outcome == Outcome::singular)

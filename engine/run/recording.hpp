@@ -13,6 +13,7 @@
 
 #include "engine/core/line_fit.hpp"
 #include "engine/core/text.hpp"
+#include "engine/family/parts/element_steps.hpp"
 #include "engine/integrator/with_exponents.hpp"
 #include "engine/model/conservative.hpp"
 #include "engine/observe/catalog.hpp"
@@ -487,9 +488,10 @@ struct Recording {
             recordAlone(state, report.last, report.lastQuantities,
                         static_cast<double>(state.node) - (stopped ? 1 - stoppedAt : 0));
         if (system.field && plan.has(Product::frames)) recordFrame(state.t, state.x.data(), true);
-        if (scheme.plain() && scheme.family->elements)
-            result.products.make<ElementClocks>() = scheme.family->elements(
-                system, scheme.discretization, step, state.t - initialNode.t, state.x.data());
+        const auto* const elements = scheme.plain() ? scheme.family->parts.find<ElementSteps>() : nullptr;
+        if (elements)
+            result.products.make<ElementClocks>() = elements->clocks(system, scheme.discretization, step,
+                                                                     state.t - initialNode.t, state.x.data());
         finish(report);
     }
 };

@@ -12,6 +12,8 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/nodes.hpp"
+#include "engine/family/parts/references.hpp"
 #include "engine/model/parts/mesh_error.hpp"
 #include "engine/model/typed/branches.hpp"
 #include "engine/run/exact_reference.hpp"
@@ -103,7 +105,8 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
         if (length / step > maxSteps) break;
         auto coarse = solution(step), fine = solution(step / 2);
         const double error =
-            solutionDistance(fine(), coarse(), step, !family->hasDenseOutput, scene, system, initial, stop);
+            solutionDistance(fine(), coarse(), step, family->parts.find<NodesAlone>() != nullptr, scene,
+                             system, initial, stop);
         if (error < last || refinement == 0) {
             best.info = {"computed", error, plan.description + ", h = " + formatNumber(step / 2, 3)};
             best.make = std::move(fine);
@@ -124,14 +127,14 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
     best.info.estimatedError = std::max(safety * best.info.estimatedError, roundOff * measure.scale);
     best.info.estimatedError +=
         switchingPart([&](const State& start) { return solutionFrom(bestStep, start); }, bestStep,
-                      !family->hasDenseOutput, scene, system, initial, stop);
+                      family->parts.find<NodesAlone>() != nullptr, scene, system, initial, stop);
     return best;
 }
 
 /// The family that references of the system are computed with on meshes of their own; null: there is none.
 const Family* familyOnMeshes(const System& system) {
     for (const Family& family : families())
-        if (family.referenceMesh && appliesTo(family, system)) return &family;
+        if (family.parts.find<TrustedMesh>() && appliesTo(family, system)) return &family;
     return nullptr;
 }
 
@@ -142,11 +145,12 @@ Reference computedOnMesh(const ResolvedScene& resolved, const Family& family, co
     constexpr double mostElementSteps = 2e7, cheap = 1e5, gain = 8;
     const Scene& scene = resolved.scene;
     const double length = scene.end.value - scene.start.value;
+    const TrustedMesh& trusted = *family.parts.find<TrustedMesh>();
     double step = length / 100;
     for (const SchemeSpec& spec : scene.schemes)
         if (spec.isEnabled && spec.step.value > 0) step = std::min(step, spec.step.value);
     const auto solutionOf = [&](int refinement) {
-        const ReferenceMesh mesh = family.referenceMesh(scene.model, step, refinement);
+        const ReferenceMesh mesh = trusted.refined(scene.model, step, refinement);
         ResolvedScheme scheme;
         scheme.family = &family;
         scheme.discretization = mesh.discretization;
@@ -162,7 +166,7 @@ Reference computedOnMesh(const ResolvedScene& resolved, const Family& family, co
     };
     const ErrorMeasure measure = errorMeasure(*resolved.system, resolved.initial);
     const auto costOf = [&](int refinement) {
-        const ReferenceMesh mesh = family.referenceMesh(scene.model, step, refinement);
+        const ReferenceMesh mesh = trusted.refined(scene.model, step, refinement);
         return mesh.elements * (length / mesh.step);
     };
     if (costOf(1) > mostElementSteps)
@@ -179,11 +183,10 @@ Reference computedOnMesh(const ResolvedScene& resolved, const Family& family, co
                                  gain;
             if (stop.stop_requested()) return {};
             if (!std::isfinite(error))
-                return withoutReference(family.referenceMesh(scene.model, step, refinement).description +
+                return withoutReference(trusted.refined(scene.model, step, refinement).description +
                                         " does not reach the end of the run");
             if (refinement > 1 && error > reference.info.estimatedError) break;
-            reference.info = {"computed", error,
-                              family.referenceMesh(scene.model, step, refinement).description};
+            reference.info = {"computed", error, trusted.refined(scene.model, step, refinement).description};
             reference.onMesh = fine;
             coarse = std::move(fine);
             if (error < 1e-13 * std::max(measure.scale, 1.0) || costOf(refinement + 1) > cheap) break;
@@ -234,11 +237,11 @@ Reference fromScheme(const ResolvedScene& resolved, const std::stop_token& stop)
     const State own = schemeStart(resolved, scheme, spec.step.value);
     reference.make = stepped(make(spec.step.value), own, end);
     const Family* const family = scheme.family ? scheme.family : familyFor(system);
-    const bool hasDenseOutput = !family || family->hasDenseOutput;
+    const bool isAtNodes = family && family->parts.find<NodesAlone>();
     if (!scheme.isAdaptive()) {
         const auto coarse = stepped(make(2 * spec.step.value), own, end);
         reference.info.estimatedError = solutionDistance(reference.make(), coarse(), 2 * spec.step.value,
-                                                         !hasDenseOutput, scene, system, initial, stop);
+                                                         isAtNodes, scene, system, initial, stop);
     }
     return reference;
 }

@@ -3,10 +3,12 @@
 #include <cmath>
 
 #include "engine/core/contained.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/core/duration.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/frequency.hpp"
 #include "engine/core/work.hpp"
+#include "engine/family/parts/steps.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/companion.hpp"
@@ -62,17 +64,11 @@ void checkRows(Reader& reader, const Scene& scene) {
                      scene.every ? "a larger interval, or fewer schemes" : "fewer schemes");
 }
 
-/// At all frequencies that are known: those of the linearisation at the start, unless the family has another
-/// notion of the highest.
+/// At all frequencies that are known: those of the linearisation at the start.
 void checkStability(const SchemeCase& at, const ResolvedScheme& scheme, Findings& findings) {
     const auto stability = stabilityOf(scheme);
     if (!stability || stability->intervals.empty()) return;
-    std::vector<double> frequencies;
-    if (scheme.family && scheme.family->frequency)
-        frequencies = {scheme.family->frequency(at.discretization, at.system, at.initial)};
-    else
-        frequencies = linearFrequencies(at.system, at.initial);
-    checkLinearStability(at, frequencies, *stability, findings);
+    checkLinearStability(at, linearFrequencies(at.system, at.initial), *stability, findings);
 }
 
 /// A rule with fewer nodes than it would have by itself, which costs the discretization its order.
@@ -134,8 +130,8 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
     if (isSaid) return;
     if (!scheme.isAdaptive()) {
         const Family* const family = scheme.family ? scheme.family : familyFor(*scene.system);
-        const double slowestStep =
-            family && family->slowestStep ? family->slowestStep(caseOf(scene, scheme)) : 5e-3;
+        const auto* const slowest = family ? family->parts.find<SlowestStep>() : nullptr;
+        const double slowestStep = slowest ? slowest->seconds(caseOf(scene, scheme)) : 5e-3;
         if (timeSpan(scene.scene).length() / scheme.spec.step.value * slowestStep < longest) return;
     }
     work::spend(1e7);                     // some milliseconds
@@ -170,13 +166,13 @@ void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
     if (scheme.isAdaptive()) return;
     const SchemeCase at = caseOf(scene, scheme);
     Findings findings;
-    if (scheme.baseline && scheme.baseline->check)
-        scheme.baseline->check(at, findings);
-    else if (linearTestOf(*scene.system) == LinearTest::oscillator ||
-             (scheme.family && scheme.family->frequency))
+    const auto* const own = scheme.baseline ? scheme.baseline->parts.find<StepCheck>() : nullptr;
+    if (own)
+        own->check(at, findings);
+    else if (linearTestOf(*scene.system) == LinearTest::oscillator)
         checkStability(at, scheme, findings);
     if (!scheme.properties.caution.empty()) findings.warning("", scheme.properties.caution);
-    if (scheme.family && scheme.family->check) scheme.family->check(at, findings);
+    if (scheme.family) scheme.family->check(at, findings);
     reader.add(pointer, findings);
 }
 

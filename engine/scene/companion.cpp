@@ -89,7 +89,7 @@ SchemeSpec ofBaseline(const ResolvedScheme& scheme, const System& system) {
 }  // namespace
 
 ResolvedScheme companionOf(const ResolvedScheme& scheme, const System& system) {
-    const int inSpace = scheme.baseline ? scheme.baseline->orderInSpace : scheme.properties.orderInSpace;
+    const int inSpace = scheme.orderInSpace();
     if (inSpace > 0 || system.error.ofFunction)
         refuse("its error in space is that of the mesh, which both would share");
     const SchemeSpec spec = scheme.isComposed() ? halved(scheme)

@@ -4,10 +4,12 @@
 #include <set>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/core/text.hpp"
 #include "engine/core/work.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/family/parts/steps.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/format.hpp"
@@ -104,7 +106,7 @@ bool checkSolverMethod(Reader& reader, const std::string& method, const std::str
                        const SchemeSpec& spec) {
     std::vector<std::string> known{"auto"};
     for (const Family& family : families())
-        for (const std::string& id : family.solverMethods)
+        for (const std::string& id : solverMethods(family))
             if (std::find(known.begin(), known.end(), id) == known.end()) known.push_back(id);
     if (std::find(known.begin(), known.end(), method) == known.end()) {
         reader.unknownName(place, "method", method, known);
@@ -119,7 +121,7 @@ bool checkSolverMethod(Reader& reader, const std::string& method, const std::str
     const auto discretization = discretizationOf(spec);
     const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
     if (!family) return false;  // reported elsewhere
-    const auto& own = family->solverMethods;
+    const auto& own = solverMethods(*family);
     if (std::find(own.begin(), own.end(), method) != own.end()) return true;
     reader.error(place, method + " does not solve the equations of " + family->item.title + " schemes",
                  own.empty() ? "leave the solver out" : "auto or " + joinNames(own));
@@ -149,9 +151,10 @@ void readSolver(Reader& reader, const Value& scheme, const std::string& pointer,
 /// What a baseline finds in its keys.
 void examineBaseline(Reader& reader, const std::string& pointer, const Settings& settings) {
     const BaselineEntry* const entry = findBaseline(settings.type);
-    if (!entry || !entry->examine) return;
+    const auto* const check = entry ? entry->parts.find<KeyCheck>() : nullptr;
+    if (!check) return;
     Findings findings;
-    entry->examine(settings, findings);
+    check->examine(settings, findings);
     reader.add(pointer, findings);
 }
 
@@ -217,13 +220,13 @@ void readComposition(Reader& reader, const Value& value, const std::string& poin
 /// The step that follows from the space, with the parameters of the model.
 std::optional<ImpliedStep> impliedStepOf(const Reader& reader, const SchemeSpec& spec) {
     const auto discretization = discretizationOf(spec);
-    const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
-    if (!family || !family->impliedStep) return {};
-    return family->impliedStep(discretization->space, reader.model,
-                               [&](std::string_view name) -> std::optional<double> {
-                                   const auto known = reader.parameters.find(name);
-                                   return known == reader.parameters.end() ? std::nullopt : known->second;
-                               });
+    const auto* const step = discretization ? familyPart<StepOfSpace>(discretization->space) : nullptr;
+    if (!step) return {};
+    return step->implied(discretization->space, reader.model,
+                         [&](std::string_view name) -> std::optional<double> {
+                             const auto known = reader.parameters.find(name);
+                             return known == reader.parameters.end() ? std::nullopt : known->second;
+                         });
 }
 
 void readStep(Reader& reader, const Value& scheme, const std::string& pointer, bool isAdaptive,
@@ -309,9 +312,9 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
     const BaselineEntry* baseline = findBaseline(spec.baseline.type);
     if (const Value* composition = value.find("composition"); composition && isKindKnown)
         readComposition(reader, *composition, childPointer(pointer, "composition"),
-                        baseline && baseline->isAdaptive, spec);
+                        baseline && baseline->isAdaptive(), spec);
     if (isKindKnown || value.find("step"))
-        readStep(reader, value, pointer, baseline && baseline->isAdaptive, spec);
+        readStep(reader, value, pointer, baseline && baseline->isAdaptive(), spec);
     readSolver(reader, value, childPointer(pointer, "solver"), spec);
     // A step that follows from a parameter whose own error is reported is unknown without a further one.
     const bool hasStep = spec.step.value > 0 || spec.tolerance;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/family/parts/meshes.hpp"
+#include "engine/family/parts/starts.hpp"
 #include "engine/integrator/at_switches.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/scene/bind.hpp"
@@ -39,6 +42,12 @@ void refuseBaseline(const BaselineEntry& entry, const System& system) {
 double ResolvedScheme::stabilityLimit() const {
     const auto known = stabilityOf(*this);
     return known ? firstEdge(known->intervals) : 0;
+}
+
+int ResolvedScheme::orderInSpace() const {
+    if (family) return properties.orderInSpace;
+    const auto* const own = baseline->parts.find<OrderInSpace>();
+    return own ? own->order : 0;
 }
 
 bool ResolvedScheme::fits(const System& system) const {
@@ -82,7 +91,7 @@ ResolvedScheme resolve(const SchemeSpec& scheme, const System* system) {
         r.discretization = std::move(*discretization);
         r.family = familyOf(r.discretization.space);
         if (!r.family) throw InvalidScene("/space/type", "there is no space \"" + scheme.space.type + "\"");
-        if (r.family->grid) r.grid = r.family->grid(r.discretization.space);
+        r.grid = timeGridOf(r.discretization.space);
         r.properties = system ? describe(r.discretization, *system) : describe(r.discretization);
         r.claims = r.properties.claims;
     } else {
@@ -91,36 +100,39 @@ ResolvedScheme resolve(const SchemeSpec& scheme, const System* system) {
         r.baseline = findBaseline(scheme.baseline.type);
         if (!r.baseline) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
         r.claims = claimsOf(*r.baseline, scheme.baseline, system);
-        r.grid = r.baseline->isAdaptive ? TimeGrid::landing : r.baseline->grid;
+        r.grid = r.baseline->grid;
     }
     if (scheme.composition.type.empty()) return r;
     r.parts = compositionParts(scheme.composition, r.claims.order);
     r.claims = composedClaims(scheme.composition, r.claims);
-    const int most = r.baseline ? r.baseline->orderInSpace : r.properties.orderInSpace;
+    const int most = r.orderInSpace();
     if (most > 0) r.claims.order = std::min(r.claims.order, most);
     return r;
 }
 
 void resolveSystem(ResolvedScheme& scheme, const Scene& scene) {
-    if (!scheme.family || !scheme.family->model) return;
-    const auto model = scheme.family->model(scheme.discretization.space, scene.model);
+    const auto* const mesh = scheme.family ? scheme.family->parts.find<OwnMesh>() : nullptr;
+    if (!mesh) return;
+    const auto model = mesh->model(scheme.discretization.space, scene.model);
     if (!model) return;
     scheme.ownSystem = std::make_shared<const System>(findModel(scene.model.type)->make(*model));
-    scheme.ownInitial = scheme.family->start && scheme.fits(*scheme.ownSystem)
-                            ? scheme.family->start(*scheme.ownSystem, scheme.discretization,
-                                                   scene.initial.given, scene.start.value)
-                            : initialState(scene, *scheme.ownSystem);
+    const auto* const start = scheme.family->parts.find<OwnStart>();
+    scheme.ownInitial =
+        start && scheme.fits(*scheme.ownSystem)
+            ? start->state(*scheme.ownSystem, scheme.discretization, scene.initial.given, scene.start.value)
+            : initialState(scene, *scheme.ownSystem);
 }
 
 ResolvedScheme refined(const ResolvedScheme& scheme, const ResolvedScene& resolved, int factor) {
     ResolvedScheme finer = scheme;
     const Settings& model = resolved.scene.model;
     for (const Family& family : families()) {
-        if (!family.refined || !appliesTo(family, *resolved.system)) continue;
+        const auto* const onFiner = family.parts.find<RefinedMesh>();
+        if (!onFiner || !appliesTo(family, *resolved.system)) continue;
         std::optional<Settings> own;
-        if (scheme.family && scheme.family->model)
-            own = scheme.family->model(scheme.discretization.space, model);
-        const Settings keys = family.refined(own.value_or(model), factor);
+        if (const auto* const mesh = scheme.family ? scheme.family->parts.find<OwnMesh>() : nullptr)
+            own = mesh->model(scheme.discretization.space, model);
+        const Settings keys = onFiner->model(own.value_or(model), factor);
         finer.ownSystem = std::make_shared<const System>(findModel(model.type)->make(keys));
         finer.ownInitial = initialState(resolved.scene, *finer.ownSystem);
         break;

@@ -36,6 +36,8 @@ struct ResolvedScheme {
     /// Largest step * frequency on the harmonic oscillator; infinity: none; 0: not known. That of a
     /// composition is measured when it is first asked for.
     double stabilityLimit() const;
+    /// Of fields on meshes: the order in space, which compositions in time do not raise; 0: there is none.
+    int orderInSpace() const;
     /// Nodes are products of the run.
     bool isFixed() const { return grid == TimeGrid::fixed; }
     /// Has a tolerance in place of a step.

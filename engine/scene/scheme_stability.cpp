@@ -6,7 +6,9 @@
 #include <optional>
 #include <string>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/core/memo_cache.hpp"
+#include "engine/family/parts/tables.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 #include "engine/integrator/stability.hpp"
 #include "engine/scene/json.hpp"
@@ -51,8 +53,9 @@ std::optional<OscillatorStep> oscillatorStep(const ResolvedScheme& scheme) {
         if (!hasTable(scheme.discretization)) return {};
         return whole(tableStep(scheme.discretization));
     }
-    if (!scheme.baseline->tableau || !scheme.claims.isSymplectic) return {};
-    return whole(OscillatorStep(scheme.baseline->tableau(scheme.spec.baseline)));
+    const auto* const tableau = scheme.baseline->parts.find<BaselineTableau>();
+    if (!tableau || !scheme.claims.isSymplectic) return {};
+    return whole(OscillatorStep(tableau->of(scheme.spec.baseline)));
 }
 
 using Facts = std::shared_ptr<const LinearStabilityFacts>;
@@ -66,14 +69,11 @@ Facts upTo(double limit) {
 /// The limit that a family or a baseline states; a negative number: there is no one limit.
 double statedLimit(const ResolvedScheme& scheme) {
     if (scheme.family) {
-        const bool changes = scheme.family->table && !hasTable(scheme.discretization);
+        const bool changes = scheme.family->parts.find<Tables>() && !hasTable(scheme.discretization);
         return changes ? -1 : scheme.properties.stabilityLimit;
     }
-    const double limit = scheme.baseline->stabilityLimitOf
-                             ? scheme.baseline->stabilityLimitOf(scheme.spec.baseline)
-                             : scheme.baseline->stabilityLimit;
-    // Of a baseline 0 says that it is not known, unless the keys of the scene decide.
-    return limit > 0 || scheme.baseline->stabilityLimitOf ? limit : -1;
+    const auto* const limit = scheme.baseline->parts.find<OscillatorLimit>();
+    return limit ? limit->of(scheme.spec.baseline) : -1;
 }
 
 Facts computed(const ResolvedScheme& scheme) {

@@ -12,6 +12,7 @@
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/starts.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
@@ -114,12 +115,12 @@ State schemeStart(const ResolvedScene& resolved, const ResolvedScheme& scheme, d
     const Scene& scene = resolved.scene;
     const System& system = *systemOf(resolved, scheme);
     const State& initial = initialOf(resolved, scheme);
-    if (scheme.plain() && scheme.family->startThrough && system.givesLevels &&
-        system.givesLevels(scene.initial.given)) {
+    const auto* const through = scheme.plain() ? scheme.family->parts.find<StartThrough>() : nullptr;
+    if (through && system.givesLevels && system.givesLevels(scene.initial.given)) {
         State second = initial;
         second.t += step;
         exactSolution(scene, system, initial)(second.t, second.x);
-        return scheme.family->startThrough(system, scheme.discretization, step, initial, second);
+        return through->state(system, scheme.discretization, step, initial, second);
     }
     if (scene.initial.second != Initial::Second::position || !scheme.isFixed()) return initial;
     step = std::abs(step);  // the momentum at the start is the same

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/family/parts/shape_functions.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
@@ -68,7 +69,7 @@ int lastNodeOf(const Scene& scene) {
     double last = 1e5;
     for (const SchemeSpec& s : scene.schemes)
         if (const auto made = discretizationOf(s);
-            made && familyOf(made->space)->shapeFunction && s.step.value > 0)
+            made && familyPart<ShapeFunctions>(made->space) && s.step.value > 0)
             last = std::min(last, std::max(1.0, std::round(1 / s.step.value) - 1));
     return static_cast<int>(last);
 }

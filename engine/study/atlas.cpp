@@ -31,7 +31,7 @@ std::vector<Value> everyScheme(const AtlasOptions& options) {
         }
     for (const BaselineEntry& entry : baselineCatalog()) {
         Value scheme(Value::Object{{"label", entry.item.title}, {"baseline", entry.item.id}});
-        if (entry.isAdaptive) scheme.set("tolerance", 1e-6);
+        if (entry.isAdaptive()) scheme.set("tolerance", 1e-6);
         all.push_back(std::move(scheme));
     }
     return all;

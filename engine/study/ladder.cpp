@@ -9,6 +9,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/family/parts/steps.hpp"
 #include "engine/study/values_between.hpp"
 
 namespace extremal {
@@ -40,9 +41,10 @@ std::vector<double> tolerances() {
 }  // namespace
 
 bool hasStepOfItsSpace(const ResolvedScene& scene, const ResolvedScheme& scheme) {
-    if (!scheme.family || !scheme.family->impliedStep) return false;
+    const auto* const own = scheme.family ? scheme.family->parts.find<StepOfSpace>() : nullptr;
+    if (!own) return false;
     const auto anyValue = [](std::string_view) { return std::optional(1.0); };
-    const auto implied = scheme.family->impliedStep(scheme.discretization.space, scene.scene.model, anyValue);
+    const auto implied = own->implied(scheme.discretization.space, scene.scene.model, anyValue);
     return implied && implied->isOfSpace;
 }
 

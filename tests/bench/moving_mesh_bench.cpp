@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "engine/family/family.hpp"
+#include "engine/family/parts/meshes.hpp"
+#include "engine/family/parts/starts.hpp"
 #include "engine/model/system.hpp"
 #include "tests/bench/cpu_time.hpp"
 
@@ -67,8 +69,9 @@ int main() {
                              {"auto", {}, {}},
                              {}};
             const Family& family = *familyOf(d.space);
-            const System system = findModel("field")->make(*family.model(d.space, model(8)));
-            const State start = family.start(system, d, initial, 0);
+            const System system =
+                findModel("field")->make(*family.parts.find<OwnMesh>()->model(d.space, model(8)));
+            const State start = family.parts.find<OwnStart>()->state(system, d, initial, 0);
             const bool isFirst = method[0] == 'm';
             const StepCost found = costOf(system, d, start, 0.05, isFirst ? std::min(steps, 150) : steps);
             cost[isFirst ? 0 : 1] = found.microseconds;

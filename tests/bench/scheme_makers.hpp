@@ -26,8 +26,8 @@ inline Make baselineOf(const std::string& id, Value::Object keys = {}) {
     Settings settings{id, {}, {}};
     for (const auto& [key, value] : keys) settings.keys.emplace_back(key, value);
     return [entry, settings](const System& s, const State& start, double setting) {
-        return entry->isAdaptive ? entry->make(s, {0, start, setting, settings})
-                                 : entry->make(s, {setting, start, 0, settings});
+        return entry->isAdaptive() ? entry->make(s, {0, start, setting, settings})
+                                   : entry->make(s, {setting, start, 0, settings});
     };
 }
 

@@ -56,7 +56,7 @@ class AdaptiveTest : public QObject {
     void addEntries() {
         QTest::addColumn<QString>("id");
         for (const BaselineEntry& e : baselineCatalog())
-            if (e.isAdaptive && appliesTo(e, kepler_))
+            if (e.isAdaptive() && appliesTo(e, kepler_))
                 QTest::newRow(e.item.id.c_str()) << QString::fromStdString(e.item.id);
     }
     const BaselineEntry& current() const {

@@ -26,7 +26,7 @@ std::vector<Case> everyBodyScheme(const System& system) {
                              true});
         }
     for (const BaselineEntry& e : baselineCatalog()) {
-        if (e.isAdaptive || !appliesTo(e, system)) continue;
+        if (e.isAdaptive() || !appliesTo(e, system)) continue;
         std::vector<Settings> variants;
         for (const FieldInfo& f : e.item.parameters)
             if (f.key == "order")
@@ -38,8 +38,7 @@ std::vector<Case> everyBodyScheme(const System& system) {
             std::string name = e.item.id;
             if (keys.find("order")) name += " " + std::to_string(keys.integer("order"));
             if (keys.find("projection")) name += keys.flag("projection") ? " projected" : " unprojected";
-            cases.push_back({name, e.claims ? e.claims(keys) : *e.item.claims,
-                             [make = e.make, keys](const System& s, const Clock& c) {
+            cases.push_back({name, claimsOf(e, keys), [make = e.make, keys](const System& s, const Clock& c) {
                                  return make(s, {c.step, {}, 0, keys});
                              }});
         }

@@ -110,7 +110,7 @@ private:
                 SchemeSpec spec;
                 spec.kind = SchemeSpec::Kind::baseline;
                 spec.baseline = keys;
-                if (e.isAdaptive) spec.tolerance = 1e-9;
+                if (e.isAdaptive()) spec.tolerance = 1e-9;
                 add(nameOf(keys, e.item), Group::baseline, keys.integer("degree"), spec);
             }
         }
@@ -149,7 +149,7 @@ private:
                                     (rule ? nameOf(variant, rule->item) : variant.type),
                                 space, variant);
                 }
-        if (!family.choices || familyFor(system_) != &family) return;
+        if (familyFor(system_) != &family) return;
         for (const ChoiceGrid::Cell& cell : family.choices(system_).cells) {
             const Discretization& d = cell.discretization;
             if (isAffordable(d.space.integer("degree"), system_))

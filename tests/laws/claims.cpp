@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
@@ -202,7 +203,8 @@ Trial trialOf(const Subject& on, const CatalogueScheme& scheme) {
             scheme.degree <= 3,
             r.plain(),
             [&on, &r](double step) {
-                const auto check = r.family ? r.family->check : r.baseline->check;
+                const auto* const own = r.baseline ? r.baseline->parts.find<StepCheck>() : nullptr;
+                const auto check = r.family ? r.family->check : own ? own->check : nullptr;
                 extremal::Findings findings;
                 const SchemeCase scene{on.system, on.start, r.discretization, step, r.isComposed(), false};
                 if (check) check(scene, findings);

@@ -66,9 +66,7 @@ inline std::vector<Case> everyScheme(int maxDegree, const System& system = syste
         for (int degree = low; degree <= high; ++degree) {
             const Discretization discretization = e.make(degree);
             // Times that are unknowns have laws of their own (moving_times_test.cpp).
-            if (const auto grid = familyOf(discretization.space)->grid;
-                grid && grid(discretization.space) != TimeGrid::fixed)
-                continue;
+            if (timeGridOf(discretization.space) != TimeGrid::fixed) continue;
             if (!isFor(discretization, system) ||
                 std::find(known.begin(), known.end(), discretization) != known.end() ||
                 !describe(discretization.space, discretization.quadrature).caution.empty())
@@ -85,7 +83,7 @@ inline std::vector<Case> everyScheme(int maxDegree, const System& system = syste
         }
     }
     for (const BaselineEntry& e : baselineCatalog()) {
-        if (e.isAdaptive || e.grid != TimeGrid::fixed || !appliesTo(e, system)) continue;
+        if (e.grid != TimeGrid::fixed || !appliesTo(e, system)) continue;
         for (const Settings& keys : variantsOf(e.item, maxDegree)) {
             const std::string stages =
                 keys.find("stages") ? "-" + std::to_string(keys.integer("stages")) : "";

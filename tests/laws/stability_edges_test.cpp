@@ -8,8 +8,10 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/family/parts/tables.hpp"
 #include "engine/scene/scheme_stability.hpp"
 #include "engine/tableau/tableau.hpp"
 #include "tests/laws/catalogue.hpp"
@@ -43,11 +45,11 @@ struct StepTrace {
 
 StepTrace traceOf(const ResolvedScheme& scheme) {
     constexpr int fewStages = 6, mostStages = 20;
-    const bool hasOne = scheme.family ? scheme.family->tableau != nullptr : bool(scheme.baseline->tableau);
-    if (!hasOne) return {};
+    const auto* const tables = scheme.family ? scheme.family->parts.find<Tables>() : nullptr;
+    const auto* const own = scheme.baseline ? scheme.baseline->parts.find<BaselineTableau>() : nullptr;
+    if (!tables && !own) return {};
     try {
-        const auto part = scheme.family ? scheme.family->tableau(scheme.discretization, 1)
-                                        : scheme.baseline->tableau(scheme.spec.baseline);
+        const auto part = tables ? tables->tableau(scheme.discretization, 1) : own->of(scheme.spec.baseline);
         const Tableau whole =
             scheme.isComposed() ? composed(*part, {scheme.parts.begin(), scheme.parts.end()}) : *part;
         if (whole.forces() > mostStages) return {};

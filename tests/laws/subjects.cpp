@@ -8,6 +8,7 @@
 #include <complex>
 #include <set>
 
+#include "engine/family/parts/references.hpp"
 #include "engine/model/wave/eigen.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/scene/bind.hpp"

@@ -83,6 +83,7 @@ expect(header_of_another_family engine/family/lie/a.cpp "#include \"engine/famil
 expect(family_without_names engine/family/new/family.cpp "int a;\n" "whose names are not listed")
 expect(header_of_its_family engine/family/lie/a.cpp "#include \"engine/family/lie/lie.hpp\"\n" "")
 expect(header_in_a_baseline engine/baseline/a.cpp "#include \"engine/family/wave/wave.hpp\"\n" "")
+expect(header_of_a_part engine/run/a.cpp "#include \"engine/family/parts/nodes.hpp\"\n" "")
 expect(header_of_all_families engine/run/a.cpp "#include \"engine/family/scheme.hpp\"\n" "")
 
 expect(kind_of_problem engine/run/a.cpp "bool b = isWave(system);\n" "isWave asks for the kind")

@@ -9,6 +9,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/steps.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/json.hpp"
@@ -93,8 +94,7 @@ QString innerText(const SchemeSpec& spec) {
 /// not what was typed.
 bool hasElements(const SchemeSpec& spec) {
     const auto discretization = discretizationOf(spec);
-    const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
-    return family && family->impliedStep;
+    return discretization && familyPart<StepOfSpace>(discretization->space);
 }
 
 }  // namespace

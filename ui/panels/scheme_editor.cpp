@@ -81,10 +81,12 @@ void choose(QComboBox& box, const std::string& id) {
 }
 
 /// Those that solve the equations of the scheme.
-std::vector<std::string> solverMethods(const SchemeSpec& spec) {
+std::vector<std::string> methodsFor(const SchemeSpec& spec) {
     std::vector<std::string> methods{"auto"};
-    if (const Family* family = resolve(spec).family)
-        methods.insert(methods.end(), family->solverMethods.begin(), family->solverMethods.end());
+    if (const Family* const family = resolve(spec).family) {
+        const auto& own = solverMethods(*family);
+        methods.insert(methods.end(), own.begin(), own.end());
+    }
     return methods;
 }
 
@@ -250,7 +252,7 @@ void SchemeEditor::rebuild() {
     }
     if (s.kind != SchemeSpec::Kind::baseline)
         fields.push_back(
-            {choiceField("method", "solver", solverMethods(s), "How the equations of a step are solved."),
+            {choiceField("method", "solver", methodsFor(s), "How the equations of a step are solved."),
              place() + "/solver/method",
              {},
              {}});

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "engine/family/family.hpp"
+#include "engine/family/parts/described_on_system.hpp"
 #include "engine/model/lagrangian_terms.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"
@@ -24,7 +25,7 @@ namespace {
 std::vector<std::string> termsOf(const Scene& scene, const SchemeSpec& spec) {
     if (spec.kind != SchemeSpec::Kind::discretization) return {};
     const Family* const family = familyOf(spec.space);
-    if (!family || !family->describeOn) return {};
+    if (!family || !family->parts.find<DescribedOnSystem>()) return {};
     const System system = makeSystem(scene);
     const Mechanical* const mechanics = system.parts.find<Mechanical>();
     if (!mechanics || !appliesTo(*family, system)) return {};

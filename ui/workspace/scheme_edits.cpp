@@ -7,6 +7,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/family/parts/steps.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
@@ -61,10 +62,7 @@ std::string pairLabel(const Settings& space, const Settings& quadrature) {
 }
 
 /// The length of an element follows from their number.
-bool hasImpliedStep(const Settings& space) {
-    const Family* const family = familyOf(space);
-    return family && family->impliedStep;
-}
+bool hasImpliedStep(const Settings& space) { return familyPart<StepOfSpace>(space) != nullptr; }
 
 std::string place(int index) { return "/schemes/" + std::to_string(index); }
 
@@ -94,16 +92,16 @@ std::string uniqueLabel(const Scene& scene, const std::string& wish) {
 
 /// The step, or nine tenths of the largest that is stable on the mesh of the scheme.
 double stableStep(const Scene& scene, const Settings& space, const Settings& quadrature, double step) {
-    const Family* const family = familyOf(space);
-    if (!family || !family->largestStep) return step;
+    const auto* const limit = familyPart<LargestStep>(space);
+    if (!limit) return step;
     try {
         ResolvedScheme scheme;
-        scheme.family = family;
+        scheme.family = familyOf(space);
         scheme.discretization = {space, quadrature, {}};
         resolveSystem(scheme, scene);
         const System system = scheme.ownSystem ? *scheme.ownSystem : makeSystem(scene);
         const State start = scheme.ownSystem ? scheme.ownInitial : initialState(scene, system);
-        const double largest = family->largestStep(system, scheme.discretization, start);
+        const double largest = limit->of(system, scheme.discretization, start);
         return largest > 0 && step > 0.9 * largest ? roundStep(0.9 * largest) : step;
     } catch (const InvalidScene&) {
         return step;  // what is wrong with the scene is said elsewhere
@@ -130,7 +128,7 @@ Value newBaseline(const Scene& scene, const std::string& id) {
     const BaselineEntry* entry = findBaseline(id);
     Value scheme{Value::Object{}};
     scheme.set("label", uniqueLabel(scene, entry ? entry->item.title : id));
-    if (entry && entry->isAdaptive)
+    if (entry && entry->isAdaptive())
         scheme.set("tolerance", 1e-9);
     else
         scheme.set("step",

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/family/parts/scheme_identity.hpp"
+
 namespace extremal {
 namespace {
 
@@ -32,14 +34,15 @@ bool areSame(const Discretization& a, const Discretization& b) {
 int findScheme(const ResolvedScene& scene, const ChoiceGrid::Cell& cell) {
     const Discretization wanted{cell.discretization.space, cell.discretization.quadrature, {}};
     const Family* const family = familyOf(wanted.space);
+    const auto* const identity = familyPart<SchemeIdentity>(wanted.space);
     int found = -1;
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
         const ResolvedScheme& scheme = scene.schemes[i];
         const Discretization* const plain = scheme.plain();
         if (!plain || scheme.family != family) continue;
-        const bool isSame = cell.isOwn       ? isOfKind(*plain, wanted)
-                            : family->isSame ? family->isSame(*plain, scheme.spec.step.value, wanted)
-                                             : areSame(*plain, wanted);
+        const bool isSame = cell.isOwn ? isOfKind(*plain, wanted)
+                            : identity ? identity->isSame(*plain, scheme.spec.step.value, wanted)
+                                       : areSame(*plain, wanted);
         if (isSame && scheme.spec.isEnabled) return static_cast<int>(i);
         if (isSame && found < 0) found = static_cast<int>(i);
     }

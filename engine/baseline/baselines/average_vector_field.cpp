@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/flow_jacobian.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_method.hpp"
@@ -147,14 +148,14 @@ BaselineEntry average_vector_field() {
         {integerField("points", "n", 1, 16, usual, "Gauss points of the average along the chord.")},
         Claims{2, true, false, {"quartic energy"}},
         ""};
-    e.claims = [](const Settings& settings) {
+    e.parts.set(ClaimsOfKeys{[](const Settings& settings) {
         Claims claims{2, true, false, {}};
         if (settings.integer("points") >= 2) claims.conserves = {"quartic energy"};
         if (settings.integer("points") == 1)  // the midpoint rule
             claims = {2, true, true, {"momentum", "quadratic invariants"}};
         return claims;
-    };
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    }});
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<AverageVectorField>(system.mechanics(), options.step,
                                                   options.settings.integer("points"));

@@ -76,7 +76,7 @@ BaselineEntry bulirsch_stoer() {
               {},
               Claims{},
               "smooth forces"};
-    e.isAdaptive = true;
+    e.grid = TimeGrid::landing;
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<BulirschStoer>(system.mechanics(), options);
     };

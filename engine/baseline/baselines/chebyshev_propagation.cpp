@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/core/duration.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
@@ -61,8 +62,8 @@ BaselineEntry chebyshev_propagation() {
               Claims{0, true, true, {"norm", "energy"}},
               "a wave function"};
     e.takes = Takes::only<Wave>();
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
-    e.check = warnOfDuration;
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
+    e.parts.set(StepCheck{warnOfDuration});
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         if (system.hamiltonian()->isTimeDependent())
             throw InvalidScene("/baseline",

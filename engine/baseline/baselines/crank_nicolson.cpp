@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/family/wave/wave.hpp"
 
 namespace extremal::baselines {
@@ -17,7 +18,7 @@ BaselineEntry crank_nicolson() {
               Claims{2, true, true, {"norm", "energy"}},
               "a wave function"};
     e.takes = Takes::only<Wave>();
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeGaussWave(system, 1, 0, options.step);
     };

@@ -7,6 +7,7 @@
 #include "engine/mechanism/driven_flow.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal::baselines {
@@ -46,8 +47,8 @@ BaselineEntry dopri5() {
               {},
               Claims{5, false, false, {}},
               "smooth forces"};
-    e.isAdaptive = true;
-    e.tableau = dopri5Tableau;
+    e.grid = TimeGrid::landing;
+    e.parts.set(BaselineTableau{dopri5Tableau});
     e.takes = Takes::only<Mechanical, Constraint, Force>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Adaptive<Stepper>>(drivenMechanics(system), options);

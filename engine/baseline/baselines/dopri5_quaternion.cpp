@@ -109,7 +109,7 @@ BaselineEntry dopri5_quaternion() {
               {projectionField()},
               Claims{5, false, false, {}},
               "a rigid body"};
-    e.isAdaptive = true;
+    e.grid = TimeGrid::landing;
     e.takes = Takes::only<Body>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Dopri5Quaternion>(system, options);

@@ -16,7 +16,7 @@ BaselineEntry fehlberg78() {
               {},
               Claims{8, false, false, {}},
               "smooth forces"};
-    e.isAdaptive = true;
+    e.grid = TimeGrid::landing;
     e.takes = Takes::only<Mechanical, Constraint, Force>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Adaptive<Stepper>>(drivenMechanics(system), options);

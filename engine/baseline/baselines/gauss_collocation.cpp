@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/gauss_tableau.hpp"
 #include "engine/quadrature/rule.hpp"
@@ -364,9 +365,10 @@ BaselineEntry gauss_collocation() {
               {stages},
               claims(usual),
               ""};
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
-    e.claims = [](const Settings& settings) { return claims(settings.integer("stages")); };
-    e.tableau = [](const Settings& settings) { return gaussTableau(settings.integer("stages")); };
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
+    e.parts.set(ClaimsOfKeys{[](const Settings& settings) { return claims(settings.integer("stages")); }});
+    e.parts.set(
+        BaselineTableau{[](const Settings& settings) { return gaussTableau(settings.integer("stages")); }});
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<GaussCollocation>(system.mechanics(), options.step,
                                                 options.settings.integer("stages"));

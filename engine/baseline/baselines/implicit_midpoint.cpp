@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/flow_jacobian.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_method.hpp"
@@ -124,8 +125,8 @@ BaselineEntry implicit_midpoint() {
               {},
               Claims{2, true, true, {"momentum", "quadratic invariants"}},
               ""};
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
-    e.tableau = [](const Settings&) { return gaussTableau(1); };
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
+    e.parts.set(BaselineTableau{[](const Settings&) { return gaussTableau(1); }});
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<ImplicitMidpoint>(system.mechanics(), options.step);
     };

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
+#include "engine/family/parts/conditions.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -119,8 +121,11 @@ BaselineEntry impulse() {
         {integerChoice("order", {"2", "4", "6", "8"}, 2, "Order, by composition: 1, 5, 9 or 17 stages.")},
         Claims{2, true, true, {}},
         "a fast oscillation of its own, with its flow"};
-    e.suits = [](const System& system) { return system.fast.fastFlow && !system.fast.slowFlows.empty(); };
-    e.claims = [](const Settings& settings) { return Claims{settings.integer("order"), true, true, {}}; };
+    e.parts.set(SystemCondition{
+        [](const System& system) { return system.fast.fastFlow && !system.fast.slowFlows.empty(); }});
+    e.parts.set(ClaimsOfKeys{[](const Settings& settings) {
+        return Claims{settings.integer("order"), true, true, {}};
+    }});
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Impulse>(system, options.step, options.settings.integer("order"));
     };

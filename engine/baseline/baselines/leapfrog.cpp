@@ -4,6 +4,7 @@
 /// <= hbar. The three-level scheme of the trapezoidal rule, started with one step of Gauss degree 2; for
 /// fields a one-step method for u and u_t.
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/baseline/field_method.hpp"
 #include "engine/family/field/field_step.hpp"
@@ -23,18 +24,17 @@ BaselineEntry leapfrog() {
         Claims{2, true, true, {"bilinear form"}, false},
         "a wave function or a field"};
     e.takes = Takes::only<Wave, ScalarField>();
-    e.claimsOn = [](const System& system) {
-        if (system.parts.find<ScalarField>())
-            return Claims{2, true, true, {"multisymplectic form", "momentum"}, true};
+    e.parts.set(ClaimsOnSystem{[](const System& system) {
+        if (system.parts.find<ScalarField>()) return Claims{2, true, true, {"multisymplectic form", "momentum"}, true};
         return Claims{2, true, true, {"bilinear form"}, false};
-    };
-    e.orderInSpace = 2;
-    e.stabilityLimit = 1;
-    e.check = [](const SchemeCase& scheme, Findings& findings) {
+    }});
+    e.parts.set(OrderInSpace{2});
+    e.parts.set(OscillatorLimit(1));
+    e.parts.set(StepCheck{[](const SchemeCase& scheme, Findings& findings) {
         if (scheme.system.parts.find<ScalarField>())
             return checkFieldStep(*lumpedForm(scheme.system), 2, scheme, "leapfrog", findings);
         checkWaveLimit(1, waveFrequency(scheme.system, 0), scheme.step, scheme.allowsUnstable, findings);
-    };
+    }});
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         if (system.parts.find<ScalarField>()) return makeExplicitField(lumpedForm(system), options.step);
         if (system.hamiltonian()->isTimeDependent())

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/classical_table.hpp"
 #include "engine/baseline/field_method.hpp"
 #include "engine/family/field/field_step.hpp"
@@ -98,10 +99,10 @@ BaselineEntry method_of_lines_rk4() {
         Claims{2, false, false, {"momentum"}},
         "a field"};
     e.takes = Takes::only<ScalarField>();
-    e.stabilityLimit = limit;
-    e.check = [](const SchemeCase& scheme, Findings& findings) {
+    e.parts.set(OscillatorLimit(limit));
+    e.parts.set(StepCheck{[](const SchemeCase& scheme, Findings& findings) {
         checkFieldStep(*lumpedForm(scheme.system), limit, scheme, "method-of-lines-rk4", findings);
-    };
+    }});
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<LinesRk4>(lumpedForm(system), options.step);
     };

@@ -18,6 +18,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/baseline/parts.hpp"
+#include "engine/family/parts/conditions.hpp"
 #include "engine/baseline/body_method.hpp"
 
 namespace extremal::baselines {
@@ -148,15 +150,16 @@ BaselineEntry moser_veselov() {
               {order},
               Claims{2, true, true, {"momentum", "energy"}},
               "a free rigid body"};
-    e.claims = [](const Settings& settings) {
+    e.parts.set(ClaimsOfKeys{[](const Settings& settings) {
         // Moments that depend on the state leave the step a Poisson map of the momentum, but not symplectic
         // with the attitude.
         const int claimed = settings.integer("order");
         return Claims{claimed, true, claimed == 2, {"momentum", "energy"}};
-    };
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    }});
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.takes = Takes::only<Body>();
-    e.suits = [](const System& system) { return system.body().dimension == 3 && system.body().isFree(); };
+    e.parts.set(SystemCondition{
+        [](const System& system) { return system.body().dimension == 3 && system.body().isFree(); }});
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<MoserVeselov>(system, options);
     };

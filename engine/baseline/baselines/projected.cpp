@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
+#include "engine/family/parts/conditions.hpp"
 #include "engine/baseline/classical_tangent.hpp"
 #include "engine/baseline/flow_method.hpp"
 
@@ -139,8 +141,8 @@ BaselineEntry projected() {
               {},
               Claims{4, false, false, {"energy"}, false},
               "a Lagrangian without explicit time"};
-    e.suits = [](const System& system) { return !system.mechanics().isTimeDependent; };
-    e.stabilityLimit = 2.8284271247461903;
+    e.parts.set(SystemCondition{[](const System& system) { return !system.mechanics().isTimeDependent; }});
+    e.parts.set(OscillatorLimit(2.8284271247461903));
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<Projected>(system.mechanics(), options.step);
     };

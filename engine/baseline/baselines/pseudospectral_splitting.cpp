@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/field_method.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/field/field_step.hpp"
@@ -132,7 +133,7 @@ BaselineEntry pseudospectral_splitting() {
         Claims{2, true, true, {"momentum"}},
         "a periodic field"};
     e.takes = Takes::only<ScalarField>();
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         const FieldProblem& problem = system.fieldProblem();
         if (!problem.mesh.isPeriodic() || !problem.mesh.isUniform() || problem.nodes.degree != 1 ||

@@ -8,6 +8,7 @@
 
 #include <limits>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/body_method.hpp"
 
 namespace extremal::baselines {
@@ -90,10 +91,10 @@ BaselineEntry rigid_splitting() {
               {order},
               Claims{2, true, true, {"momentum"}},
               "a rigid body"};
-    e.claims = [](const Settings& settings) {
+    e.parts.set(ClaimsOfKeys{[](const Settings& settings) {
         return Claims{settings.integer("order"), true, true, {"momentum"}};
-    };
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    }});
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.takes = Takes::only<Body>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<RigidSplitting>(system, options);

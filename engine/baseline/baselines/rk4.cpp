@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The classical Runge-Kutta method of order 4 on (q, p): accurate over short times, not symplectic.
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/classical_table.hpp"
 #include "engine/baseline/classical_tangent.hpp"
 #include "engine/baseline/flow_method.hpp"
@@ -99,8 +100,8 @@ BaselineEntry rk4() {
               {},
               Claims{4, false, false, {}},
               ""};
-    e.stabilityLimit = 2.8284271247461903;  // |R(iz)| <= 1 up to 2 sqrt 2
-    e.tableau = rk4Tableau;
+    e.parts.set(OscillatorLimit(2.8284271247461903));  // |R(iz)| <= 1 up to 2 sqrt 2
+    e.parts.set(BaselineTableau{rk4Tableau});
     e.takes = Takes::only<Mechanical, Constraint, Force>();
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<Rk4>(drivenMechanics(system), options.step);

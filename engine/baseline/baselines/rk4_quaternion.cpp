@@ -3,6 +3,7 @@
 /// without bringing the quaternion back to length 1 after each step.
 #include <limits>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/body_method.hpp"
 
 namespace extremal::baselines {
@@ -58,7 +59,7 @@ BaselineEntry rk4_quaternion() {
               {projectionField()},
               Claims{4, false, false, {}},
               "a rigid body"};
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.takes = Takes::only<Body>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Rk4Quaternion>(system, options);

@@ -138,7 +138,7 @@ BaselineEntry rk8pd() {
               {},
               Claims{8, false, false, {}},
               "smooth forces"};
-    e.isAdaptive = true;
+    e.grid = TimeGrid::landing;
     e.make = []([[maybe_unused]] const System& system,
                 [[maybe_unused]] const BaselineOptions& options) -> std::unique_ptr<Integrator> {
 #if EXTREMAL_HAS_GSL

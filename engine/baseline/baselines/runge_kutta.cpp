@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A Runge-Kutta method of the user's, plain or partitioned, by its table.
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/table_method.hpp"
 #include "engine/baseline/typed_tableau.hpp"
 
@@ -37,10 +38,12 @@ BaselineEntry runge_kutta() {
          optional(table("b_hat", "weights of p", "The weights of p; by default b."))},
         Claims{},
         ""};
-    e.claims = [](const Settings& settings) { return typedRungeKutta(settings)->claims; };
-    e.stabilityLimitOf = [](const Settings& settings) { return typedRungeKutta(settings)->stabilityLimit; };
-    e.tableau = [](const Settings& settings) { return typedRungeKutta(settings)->tableau; };
-    e.examine = [](const Settings& settings, Findings& findings) { examine(settings, false, findings); };
+    e.parts.set(ClaimsOfKeys{[](const Settings& settings) { return typedRungeKutta(settings)->claims; }});
+    e.parts.set(
+        OscillatorLimit([](const Settings& settings) { return typedRungeKutta(settings)->stabilityLimit; }));
+    e.parts.set(BaselineTableau{[](const Settings& settings) { return typedRungeKutta(settings)->tableau; }});
+    e.parts.set(
+        KeyCheck{[](const Settings& settings, Findings& findings) { examine(settings, false, findings); }});
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeTableMethod(system.mechanics(), options.step, *typedRungeKutta(options.settings)->tableau);
     };

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/family/wave/wave.hpp"
 #include "engine/family/wave/wave_collocation.hpp"
 
@@ -41,12 +42,12 @@ BaselineEntry spectral_collocation() {
               Claims{8, false, false, {}},
               "a wave function"};
     e.takes = Takes::only<Wave>();
-    e.claims = [](const Settings& settings) {
+    e.parts.set(ClaimsOfKeys{[](const Settings& settings) {
         const int s = settings.integer("degree");
         // Collocation has the order of its interpolatory rule.
         return settings.text("nodes") == "roots" ? collocationClaims(s) : Claims{s, false, false, {}};
-    };
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    }});
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         requireSplit(system, "/baseline", "spectral-collocation",
                      "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A splitting of the user's: a product of kicks and drifts by their fractions of the step.
 #include "engine/baseline/partitioned.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/typed_tableau.hpp"
 #include "engine/baseline/wave_splitting.hpp"
 #include "engine/core/problem.hpp"
@@ -30,14 +31,16 @@ BaselineEntry splitting() {
               Claims{},
               ""};
     e.takes = Takes::only<Mechanical, Wave>();
-    e.claims = [](const Settings& settings) {
+    e.parts.set(ClaimsOfKeys{[](const Settings& settings) {
         Claims claims = typedSplitting(settings)->claims;
         claims.conserves.emplace_back("norm");
         return claims;
-    };
-    e.stabilityLimitOf = [](const Settings& settings) { return typedSplitting(settings)->stabilityLimit; };
-    e.tableau = [](const Settings& settings) { return typedSplitting(settings)->tableau; };
-    e.examine = [](const Settings& settings, Findings& findings) { examine(settings, true, findings); };
+    }});
+    e.parts.set(
+        OscillatorLimit([](const Settings& settings) { return typedSplitting(settings)->stabilityLimit; }));
+    e.parts.set(BaselineTableau{[](const Settings& settings) { return typedSplitting(settings)->tableau; }});
+    e.parts.set(
+        KeyCheck{[](const Settings& settings, Findings& findings) { examine(settings, true, findings); }});
     e.make = [](const System& system, const BaselineOptions& options) {
         const auto typed = typedSplitting(options.settings);
         const Splitting& made = typed->splitting;

@@ -154,7 +154,7 @@ BaselineEntry stiff() {
               {},
               Claims{},
               "smooth forces"};
-    e.isAdaptive = true;
+    e.grid = TimeGrid::landing;
     e.make = []([[maybe_unused]] const System& system,
                 [[maybe_unused]] const BaselineOptions& options) -> std::unique_ptr<Integrator> {
 #if EXTREMAL_HAS_SUNDIALS

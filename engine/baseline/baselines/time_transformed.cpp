@@ -22,6 +22,8 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
+#include "engine/family/parts/conditions.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_jacobian.hpp"
 #include "engine/core/text.hpp"
@@ -262,9 +264,9 @@ BaselineEntry time_transformed() {
         Claims{4, true, true, {"momentum"}, false},
         "a Lagrangian without explicit time"};
     e.grid = TimeGrid::free;
-    e.suits = [](const System& system) { return !system.mechanics().isTimeDependent; };
-    e.stabilityLimit = std::numeric_limits<double>::infinity();
-    e.check = &checkDensity;
+    e.parts.set(SystemCondition{[](const System& system) { return !system.mechanics().isTimeDependent; }});
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
+    e.parts.set(StepCheck{checkDensity});
     e.make = [](const System& system, const BaselineOptions& options) {
         return std::make_unique<TimeTransformed>(system.mechanics(), options.step);
     };

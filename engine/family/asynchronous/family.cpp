@@ -13,6 +13,11 @@
 #include "engine/core/text.hpp"
 #include "engine/family/asynchronous/steps.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/element_steps.hpp"
+#include "engine/family/parts/nodes.hpp"
+#include "engine/family/parts/scheme_identity.hpp"
+#include "engine/family/parts/steps.hpp"
 
 namespace extremal::family {
 namespace {
@@ -234,27 +239,28 @@ Family asynchronous() {
               "an elastic bar or a membrane"};
     f.source = "Leok 2004, sec. 2.1";
     f.spaces = {asynchronousSpace()};
-    f.hasDenseOutput = false;
-    f.slowestStep = [](const SchemeCase& scheme) {
-        constexpr double perUpdate = 1e-7;
-        const Levels levels = levelsOf(scheme.system, scheme.discretization.space);
-        return std::max(5e-3, perUpdate * updatesIn(levels, scheme.step));
-    };
     f.takes = Takes::only<ScalarField, Membrane>();
-    f.suits = [](const System& system) { return isMembrane(system) || system.fieldProblem().isBody; };
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // one node in time for each element
     };
     f.describe = describeAsynchronous;
     f.check = checkAsynchronous;
-    f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
-    f.impliedStep = impliedStep;
-    f.elements = elementsOf;
     f.choices = choices;
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
-    f.isSame = [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; };
     f.written = written;
     f.make = makeAsynchronous;
+    f.parts.set(NodesAlone{});
+    f.parts.set(SlowestStep{[](const SchemeCase& scheme) {
+        constexpr double perUpdate = 1e-7;
+        const Levels levels = levelsOf(scheme.system, scheme.discretization.space);
+        return std::max(5e-3, perUpdate * updatesIn(levels, scheme.step));
+    }});
+    f.parts.set(SystemCondition{
+        [](const System& system) { return isMembrane(system) || system.fieldProblem().isBody; }});
+    f.parts.set(StepOfSpace{impliedStep});
+    f.parts.set(ElementSteps{elementsOf});
+    f.parts.set(SchemeIdentity{
+        [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; }});
     return f;
 }
 

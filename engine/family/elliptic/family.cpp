@@ -5,6 +5,9 @@
 
 #include "engine/family/elliptic/elliptic.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/scheme_identity.hpp"
+#include "engine/family/parts/shape_functions.hpp"
+#include "engine/family/parts/steps.hpp"
 #include "engine/model/elliptic.hpp"
 
 namespace extremal::family {
@@ -112,13 +115,13 @@ Family elliptic() {
             findings.error("", "goes along x from 0 to 1, and the scene starts at another place",
                            "\"time\": { \"start\": 0, \"end\": 1 }");
     };
-    f.impliedStep = impliedStep;
     f.choices = choices;
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
-    f.isSame = isSame;
-    f.shapeFunction = shapeFunction;
     f.written = written;
     f.make = makeEllipticIntegrator;
+    f.parts.set(StepOfSpace{impliedStep});
+    f.parts.set(SchemeIdentity{isSame});
+    f.parts.set(ShapeFunctions{shapeFunction});
     return f;
 }
 

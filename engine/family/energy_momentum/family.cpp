@@ -2,6 +2,11 @@
 /// Symplectic-energy-momentum integrators: the times of nodes are unknowns, chosen so that the discrete
 /// energy is kept (Leok 2004, sec. 5).
 #include "engine/family/family.hpp"
+#include "engine/family/parts/advice.hpp"
+#include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/nodes.hpp"
+#include "engine/family/parts/solver_methods.hpp"
+#include "engine/family/parts/variant.hpp"
 
 #include <array>
 #include <cmath>
@@ -260,20 +265,20 @@ Family energy_momentum() {
               "a mechanical system"};
     f.source = "Leok 2004, sec. 5";
     f.spaces = {movingTime()};
-    f.solverMethods = {"newton"};
-    f.grid = [](const Settings&) { return TimeGrid::free; };
-    f.isVariant = true;
-    f.mismatch = mismatchOf;
     f.completeRule = [](const Settings& space, const Settings& quadrature) {
         return completePlainRule(quadrature, space.integer("degree"), 1);
     };
     f.describe = describeMovingTime;
     f.check = checkSolvability;
-    f.advice = adviceFor;
     f.choices = choicesOf;
     f.rules = [](const Settings&) { return plainRules(); };
     f.written = written;
     f.make = makeIt;
+    f.parts.set(SolverMethods{{"newton"}});
+    f.parts.set(OwnTimeGrid{[](const Settings&) { return TimeGrid::free; }});
+    f.parts.set(Variant{});
+    f.parts.set(SchemeCondition{mismatchOf});
+    f.parts.set(Advice{adviceFor});
     return f;
 }
 

@@ -2,6 +2,16 @@
 /// Fields: hat functions and their higher-order likes on a mesh of space and time (Leok 2004, sec. 2.1,
 /// multisymplectic variational integrators).
 #include "engine/family/family.hpp"
+#include "engine/family/parts/dispersion.hpp"
+#include "engine/family/parts/meshes.hpp"
+#include "engine/family/parts/nodes.hpp"
+#include "engine/family/parts/own_measures.hpp"
+#include "engine/family/parts/references.hpp"
+#include "engine/family/parts/scheme_identity.hpp"
+#include "engine/family/parts/solver_methods.hpp"
+#include "engine/family/parts/starts.hpp"
+#include "engine/family/parts/steps.hpp"
+#include "engine/family/parts/tensor_rules.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -466,31 +476,30 @@ Family field() {
     f.item = {"field", "field", "Hat functions on a mesh of space and time.", {}, {}, "a field"};
     f.source = "Leok 2004, sec. 2.1";
     f.spaces = {tent()};
-    f.solverMethods = {"banded", "newton"};
-    f.takesTensorRules = true;
-    f.hasDenseOutput = false;
     f.takes = Takes::only<ScalarField>();
-    f.model = modelOf;
-    f.referenceMesh = referenceMesh;
-    f.refined = refined;
-    f.largestStep = largestStep;
-    f.startThrough = startThrough;
     f.completeRule = completeTent;
     f.describe = describeTent;
     f.check = checkTent;
-    f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };  // checkTent knows
-    f.slowestStep = [](const SchemeCase& scheme) {
-        return 5e-3 * std::max(1.0, scheme.system.fieldProblem().size() / 2000.0);
-    };
     f.choices = choices;
     f.rules = [](const Settings&) { return plainRules(); };
-    f.isSame = [](const Discretization& a, double, const Discretization& b) {
-        return a.space == b.space && a.quadrature == b.quadrature;
-    };
-    f.dispersion = dispersionOf;
-    f.measure = measure;
     f.written = written;
     f.make = makeTent;
+    f.parts.set(SolverMethods{{"banded", "newton"}});
+    f.parts.set(TensorRules{});
+    f.parts.set(NodesAlone{});
+    f.parts.set(OwnMesh{modelOf});
+    f.parts.set(TrustedMesh{referenceMesh});
+    f.parts.set(RefinedMesh{refined});
+    f.parts.set(LargestStep{largestStep});
+    f.parts.set(StartThrough{startThrough});
+    f.parts.set(SlowestStep{[](const SchemeCase& scheme) {
+        return 5e-3 * std::max(1.0, scheme.system.fieldProblem().size() / 2000.0);
+    }});
+    f.parts.set(SchemeIdentity{[](const Discretization& a, double, const Discretization& b) {
+        return a.space == b.space && a.quadrature == b.quadrature;
+    }});
+    f.parts.set(Dispersion{dispersionOf});
+    f.parts.set(OwnMeasures{measure});
     return f;
 }
 

@@ -6,6 +6,11 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/meshes.hpp"
+#include "engine/family/parts/nodes.hpp"
+#include "engine/family/parts/scheme_identity.hpp"
+#include "engine/family/parts/starts.hpp"
+#include "engine/family/parts/steps.hpp"
 #include "engine/family/free_knot/free_knots.hpp"
 
 namespace extremal::family {
@@ -106,12 +111,7 @@ Family free_knot() {
     f.item = {"free_knot", "free knots", "Profiles whose knots are unknowns.", {}, {}, "a static profile"};
     f.source = "Leok 2004, sec. 6";
     f.spaces = {knotSpace()};
-    f.grid = [](const Settings&) { return TimeGrid::free; };
     f.takes = Takes::only<StaticPart>();
-    f.model = [](const Settings&, const Settings& model) -> std::optional<Settings> { return model; };
-    f.start = [](const System& system, Discretization& d, const Settings&, double) {
-        return knotStart(*profileOf(system, d.space));
-    };
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // integrals over panels are exact to round-off
     };
@@ -125,21 +125,27 @@ Family free_knot() {
                            "\"time\": { \"start\": " + formatNumber(problem.left) +
                                ", \"end\": " + formatNumber(problem.right) + " }");
     };
-    f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
-    f.impliedStep = [](const Settings& space, const Settings& model,
-                       const ParameterValue&) -> std::optional<ImpliedStep> {
-        const ModelEntry* const entry = findModel(model.type);
-        const auto interval = entry && entry->interval ? entry->interval(model) : std::nullopt;
-        if (!interval) return {};
-        return ImpliedStep{(interval->second - interval->first) / space.number("elements"), {}, true};
-    };
     f.choices = choices;
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
-    f.isSame = [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; };
     f.written = written;
     f.make = [](const System& system, const Discretization& d, double) {
         return makeFreeKnots(profileOf(system, d.space));
     };
+    f.parts.set(OwnTimeGrid{[](const Settings&) { return TimeGrid::free; }});
+    f.parts.set(
+        OwnMesh{[](const Settings&, const Settings& model) -> std::optional<Settings> { return model; }});
+    f.parts.set(OwnStart{[](const System& system, Discretization& d, const Settings&, double) {
+        return knotStart(*profileOf(system, d.space));
+    }});
+    f.parts.set(StepOfSpace{[](const Settings& space, const Settings& model,
+                               const ParameterValue&) -> std::optional<ImpliedStep> {
+        const ModelEntry* const entry = findModel(model.type);
+        const auto interval = entry && entry->interval ? entry->interval(model) : std::nullopt;
+        if (!interval) return {};
+        return ImpliedStep{(interval->second - interval->first) / space.number("elements"), {}, true};
+    }});
+    f.parts.set(SchemeIdentity{
+        [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; }});
     return f;
 }
 

@@ -11,11 +11,16 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/described_on_system.hpp"
+#include "engine/family/parts/references.hpp"
+#include "engine/family/parts/solver_methods.hpp"
+#include "engine/family/parts/tables.hpp"
 #include "engine/family/frequency.hpp"
 #include "engine/family/galerkin/fitted_order.hpp"
 #include "engine/family/galerkin/split.hpp"
 #include "engine/family/galerkin/tables.hpp"
 #include "engine/family/galerkin/written.hpp"
+#include "engine/family/parts/conditions.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/stability_check.hpp"
@@ -211,34 +216,18 @@ Family galerkin() {
     f.item = {"galerkin", "Galerkin", "Space x quadrature as one table.", {}, {}, "coordinates"};
     f.source = "Leok 2004, sec. 2";
     f.spaces = tableSpaces();
-    f.solverMethods = {"newton", "fixed-point"};
     f.completeRule = galerkin::completedRule;
     f.describe = describeGalerkin;
     f.check = checkGalerkin;
-    f.reference = trusted;
     f.choices = choices;
     f.rules = [](const Settings& space) {
         std::vector<std::string> rules = plainRules();
         if (space.find("functions")) rules.insert(rules.begin(), "auto");
         return rules;
     };
-    f.describeOn = [](const Discretization& d, const System& system) -> std::optional<Properties> {
-        if (Mechanism::isOne(system.parts) && !galerkin::isSplit(d)) return describeMechanism(d, system);
-        if (!galerkin::isSplit(d)) return {};
-        return galerkin::describeSplit(d, system);
-    };
-    f.hasTable = [](const Discretization& d) { return !galerkin::isSplit(d) && !dependsOnStep(d.space); };
-    f.table = galerkin::makeTable;
-    f.tableau = [](const Discretization& d, double step) {
-        if (galerkin::isSplit(d))
-            throw InvalidScene(
-                "", "has a rule for each term or a space for each coordinate, which no one tableau has",
-                "one space and one rule");
-        return galerkin::tableauOf(withStep(d.space, step), d.quadrature);
-    };
     f.written = galerkin::written;
     f.takes = Takes::only<Mechanical, Constraint, Force>();
-    f.mismatch = mechanismProblem;
+    f.parts.set(SchemeCondition{mechanismProblem});
     f.make = [](const System& system, const Discretization& d, double step) {
         if (Mechanism::isOne(system.parts))
             return makeMechanismStep(system.parts, tableOf(d.space, d.quadrature), step,
@@ -256,6 +245,24 @@ Family galerkin() {
         };
         return makeCondensed(system, tables, step, solverPolicy(d.solver, system));
     };
+    f.parts.set(SolverMethods{{"newton", "fixed-point"}});
+    f.parts.set(TrustedScheme{trusted});
+    f.parts.set(
+        DescribedOnSystem{[](const Discretization& d, const System& system) -> std::optional<Properties> {
+            if (Mechanism::isOne(system.parts) && !galerkin::isSplit(d)) return describeMechanism(d, system);
+            if (!galerkin::isSplit(d)) return {};
+            return galerkin::describeSplit(d, system);
+        }});
+    f.parts.set(Tables{
+        [](const Discretization& d) { return !galerkin::isSplit(d) && !dependsOnStep(d.space); },
+        galerkin::makeTable,
+        [](const Discretization& d, double step) {
+            if (galerkin::isSplit(d))
+                throw InvalidScene(
+                    "", "has a rule for each term or a space for each coordinate, which no one tableau has",
+                    "one space and one rule");
+            return galerkin::tableauOf(withStep(d.space, step), d.quadrature);
+        }});
     return f;
 }
 

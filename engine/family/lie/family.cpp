@@ -7,6 +7,8 @@
 
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/references.hpp"
+#include "engine/family/parts/solver_methods.hpp"
 #include "engine/family/lie/lie.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
@@ -121,18 +123,18 @@ Family lie() {
     f.item = {"lie", "Lie group", "Curves on SO(3) and SE(3).", {}, {}, "a rigid body"};
     f.source = "Leok 2004, sec. 3 and 4";
     f.spaces = {liePolynomial()};
-    f.solverMethods = {"newton"};
     f.takes = Takes::only<Body>();
     f.completeRule = [](const Settings& space, const Settings& quadrature) {
         return completePlainRule(quadrature, space.integer("degree"), 1);
     };
     f.describe = describeLie;
     f.check = checkRotation;
-    f.reference = trusted;
     f.choices = choices;
     f.rules = [](const Settings&) { return plainRules(); };
     f.written = written;
     f.make = makeLieIntegrator;
+    f.parts.set(SolverMethods{{"newton"}});
+    f.parts.set(TrustedScheme{trusted});
     return f;
 }
 

@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Moving meshes: fields whose nodes are unknowns, spatio-temporally adaptive (Leok 2004, sec. 6).
 #include "engine/family/family.hpp"
+#include "engine/family/parts/advice.hpp"
+#include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/meshes.hpp"
+#include "engine/family/parts/nodes.hpp"
+#include "engine/family/parts/scheme_identity.hpp"
+#include "engine/family/parts/solver_methods.hpp"
+#include "engine/family/parts/starts.hpp"
+#include "engine/family/parts/steps.hpp"
+#include "engine/family/parts/variant.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -321,30 +330,31 @@ Family moving_mesh() {
               "a field between two ends"};
     f.source = "Leok 2004, sec. 6";
     f.spaces = {movingMeshSpace()};
-    f.solverMethods = {"banded"};
-    f.hasDenseOutput = false;
     f.takes = Takes::only<ScalarField>();
-    f.suits = isMovable;
-    f.mismatch = mismatchOf;
-    f.model = modelOf;
-    f.start = startOf;
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // midpoint in time, four Gauss points for the potential
     };
-    f.isVariant = true;
-    f.grid = [](const Settings& space) { return hasEnergyTimes(space) ? TimeGrid::free : TimeGrid::fixed; };
     f.describe = describeMovingMesh;
     f.check = checkConstraint;
-    f.advice = adviceFor;
     f.choices = choicesOf;
-    f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
-    f.slowestStep = [](const SchemeCase& scheme) {
-        return 5e-3 * std::max(1.0, scheme.system.fieldProblem().size() / 500.0);
-    };
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
-    f.isSame = [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; };
     f.written = written;
     f.make = makeIt;
+    f.parts.set(SolverMethods{{"banded"}});
+    f.parts.set(NodesAlone{});
+    f.parts.set(SystemCondition{isMovable});
+    f.parts.set(SchemeCondition{mismatchOf});
+    f.parts.set(OwnMesh{modelOf});
+    f.parts.set(OwnStart{startOf});
+    f.parts.set(Variant{});
+    f.parts.set(OwnTimeGrid{
+        [](const Settings& space) { return hasEnergyTimes(space) ? TimeGrid::free : TimeGrid::fixed; }});
+    f.parts.set(Advice{adviceFor});
+    f.parts.set(SlowestStep{[](const SchemeCase& scheme) {
+        return 5e-3 * std::max(1.0, scheme.system.fieldProblem().size() / 500.0);
+    }});
+    f.parts.set(SchemeIdentity{
+        [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; }});
     return f;
 }
 

@@ -6,6 +6,7 @@
 #include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
+#include "engine/family/parts/references.hpp"
 
 namespace extremal {
 namespace {

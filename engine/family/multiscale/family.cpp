@@ -7,6 +7,12 @@
 
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/references.hpp"
+#include "engine/family/parts/scheme_identity.hpp"
+#include "engine/family/parts/solver_methods.hpp"
+#include "engine/family/parts/starts.hpp"
+#include "engine/family/parts/variant.hpp"
 #include "engine/family/multiscale/basis.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/family/multiscale/product.hpp"
@@ -186,24 +192,16 @@ Family multiscale() {
     f.item = {"multiscale", "multiscale", "Spaces that contain a fast oscillation.", {}, {}, "coordinates"};
     f.source = "Leok 2004, sec. 7";
     f.spaces = {oscillatory(), productForm()};
-    f.solverMethods = {"newton"};  // fixed-point iteration diverges on fast oscillations
-    f.mismatch = mismatchOf;
     f.completeRule = [](const Settings& space, const Settings& quadrature) {
         return isProduct(space) ? completeProductRule(space, quadrature)
                                 : completeOscillatoryRule(space, quadrature);
     };
-    f.estimate = estimate;
     f.describe = [](const Discretization& d) {
         return isProduct(d.space) ? describeProduct(d.space, d.quadrature)
                                   : describeOscillatory(d.space, d.quadrature);
     };
     f.check = checkResonance;
-    f.reference = overFastMotion;
-    f.isVariant = true;
     f.choices = choices;
-    f.isSame = [](const Discretization& a, double, const Discretization& b) {
-        return areEqual(a.space, b.space) && areEqual(a.quadrature, b.quadrature);
-    };
     f.rules = [](const Settings&) {
         return std::vector<std::string>{"auto", "filon-lobatto", "filon-gauss", "gauss", "lobatto"};
     };
@@ -216,6 +214,14 @@ Family multiscale() {
         };
         return makeCondensed(system, std::move(tables), first, policy);
     };
+    f.parts.set(SolverMethods{{"newton"}});  // fixed-point iteration diverges on fast oscillations
+    f.parts.set(SchemeCondition{mismatchOf});
+    f.parts.set(StartEstimate{estimate});
+    f.parts.set(TrustedScheme{overFastMotion});
+    f.parts.set(Variant{});
+    f.parts.set(SchemeIdentity{[](const Discretization& a, double, const Discretization& b) {
+        return areEqual(a.space, b.space) && areEqual(a.quadrature, b.quadrature);
+    }});
     return f;
 }
 

@@ -7,6 +7,14 @@
 
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/advice.hpp"
+#include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/nodes.hpp"
+#include "engine/family/parts/references.hpp"
+#include "engine/family/parts/scheme_identity.hpp"
+#include "engine/family/parts/solver_methods.hpp"
+#include "engine/family/parts/starts.hpp"
+#include "engine/family/parts/steps.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/wave/chebyshev_series.hpp"
@@ -209,37 +217,35 @@ Family wave() {
     f.item = {"wave", "wave function", "Modes in space, polynomials in time.", {}, {}, "a wave function"};
     f.source = "Leok 2004, sec. 8";
     f.spaces = {fourier(), spaceTime()};
-    f.solverMethods = {"banded", "dense", "krylov"};
-    f.hasDenseOutput = false;
     f.takes = Takes::only<Wave>();
-    f.mismatch = mismatchOf;
     f.completeRule = completeRule;
-    f.estimate = withShift;
     f.describe = describeWave;
     f.check = checkStep;
-    // Three-level schemes alone have a limit, and checkStep knows it exactly.
-    f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
-    f.slowestStep = [](const SchemeCase& scheme) {
-        return 5e-3 * std::max(1.0, scheme.system.hamiltonian()->size() / 1024.0);
-    };
-    f.advice = [](Outcome outcome) -> std::string {
-        if (outcome != Outcome::notFinite) return {};
-        return "Beyond its stability limit a three-level scheme grows without bound. Try a smaller step.";
-    };
-    f.reference = trusted;
     f.choices = choices;
     f.rules = [](const Settings& space) {
         return isThreeLevel(space) ? std::vector<std::string>{"exact", "trapezoid", "midpoint", "lobatto"}
                                    : std::vector<std::string>{"gauss"};
     };
-    f.isSame = [](const Discretization& a, double, const Discretization& b) {
+    f.written = written;
+    f.make = makeWaveIntegrator;
+    f.parts.set(SolverMethods{{"banded", "dense", "krylov"}});
+    f.parts.set(NodesAlone{});
+    f.parts.set(SchemeCondition{mismatchOf});
+    f.parts.set(StartEstimate{withShift});
+    f.parts.set(SlowestStep{[](const SchemeCase& scheme) {
+        return 5e-3 * std::max(1.0, scheme.system.hamiltonian()->size() / 1024.0);
+    }});
+    f.parts.set(Advice{[](Outcome outcome) -> std::string {
+        if (outcome != Outcome::notFinite) return {};
+        return "Beyond its stability limit a three-level scheme grows without bound. Try a smaller step.";
+    }});
+    f.parts.set(TrustedScheme{trusted});
+    f.parts.set(SchemeIdentity{[](const Discretization& a, double, const Discretization& b) {
         return a.space.type == b.space.type && a.space.integer("degree") == b.space.integer("degree") &&
                a.space.text("form") == b.space.text("form") &&
                a.space.text("time_basis") == b.space.text("time_basis") &&
                a.space.integer("slabs") == b.space.integer("slabs") && a.quadrature == b.quadrature;
-    };
-    f.written = written;
-    f.make = makeWaveIntegrator;
+    }});
     return f;
 }
 

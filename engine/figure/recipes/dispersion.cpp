@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/family/family.hpp"
+#include "engine/family/parts/dispersion.hpp"
 #include "engine/figure/build.hpp"
 #include "engine/scene/resolve.hpp"
 
@@ -17,9 +18,11 @@ Figure makeDispersion(const FigureContext& context) {
     Series exact;
     for (const auto& scheme : context.comparison.schemes) {
         const ResolvedScheme* const resolved = scheme->scheme.get();
-        if (!context.system || !resolved || !resolved->plain() || !resolved->family->dispersion) continue;
-        const DispersionCurve curve = resolved->family->dispersion(
-            systemOf(context, *scheme), resolved->discretization, scheme->spec.step.value);
+        if (!context.system || !resolved || !resolved->plain()) continue;
+        const auto* const dispersion = resolved->family->parts.find<Dispersion>();
+        if (!dispersion) continue;
+        const DispersionCurve curve =
+            dispersion->of(systemOf(context, *scheme), resolved->discretization, scheme->spec.step.value);
         Series s;
         s.label = scheme->spec.label;
         s.style = scheme->style;

@@ -52,6 +52,8 @@ Figure makeEnergy(const FigureContext& context) {
     figure.subtitle = trends;
     if (known && !driven.empty())
         figure.subtitle = "no invariant: " + std::string(driven) + " depends on time";
+    else if (known && context.system && !conservesEnergy(*context.system))
+        figure.subtitle = "no invariant: forces act";
     std::vector<std::pair<double, std::string>> largest;
     if (isAgainstSteps(context.view) && scale > 0)
         for (const Series& s : figure.series())

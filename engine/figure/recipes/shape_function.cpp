@@ -5,6 +5,7 @@
 
 #include "engine/figure/build.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/shape_functions.hpp"
 #include "engine/scene/resolve.hpp"
 
 namespace extremal::recipes {
@@ -17,14 +18,13 @@ Figure makeShapeFunction(const FigureContext& context) {
     double left = 1, right = 0;
     for (const auto& scheme : context.comparison.schemes) {
         const ResolvedScheme* const resolved = scheme->scheme.get();
-        if (!context.system || !resolved || !resolved->family || !resolved->family->shapeFunction ||
-            !resolved->fits(*context.system))
-            continue;
+        if (!context.system || !resolved || !resolved->family || !resolved->fits(*context.system)) continue;
+        const auto* const functions = resolved->family->parts.find<ShapeFunctions>();
+        if (!functions) continue;
         const int wanted = context.view.node ? static_cast<int>(context.view.node->value) : 0;
         const double step = scheme->spec.step.value;
         if (wanted < 0 || wanted >= std::lround(1 / step)) continue;
-        ShapeFunction function =
-            resolved->family->shapeFunction(*context.system, resolved->discretization, step, wanted);
+        ShapeFunction function = functions->ofNode(*context.system, resolved->discretization, step, wanted);
         left = std::min(left, function.x.front());
         right = std::max(right, function.x.back());
         if (figure.subtitle.empty())

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/family/family.hpp"
+#include "engine/family/parts/own_measures.hpp"
 #include "engine/observe/measured.hpp"
 
 namespace extremal::observables {
@@ -21,11 +22,10 @@ ObservableEntry multisymplectic() {
         "a field"};
     e.takes = Takes::only<ScalarField>();
     e.bind = [](const ObserveContext& context) {
-        const Family* family = context.discretization ? familyOf(context.discretization->space) : nullptr;
+        const auto* const own =
+            context.discretization ? familyPart<OwnMeasures>(context.discretization->space) : nullptr;
         std::optional<Measure> measure;
-        if (family && family->measure)
-            measure =
-                family->measure("multisymplectic", context.system, *context.discretization, context.step);
+        if (own) measure = own->of("multisymplectic", context.system, *context.discretization, context.step);
         if (measure) return bindMeasure(*measure, context.initial);
         Observer o;  // of a baseline, which no discrete action defines
         o.columns = {{"multisymplectic", "Σ Ω / Σ |Ω|", "", {}, {}}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The steps, updates or energies of the elements of asynchronous schemes over the mesh.
 #include "engine/family/family.hpp"
+#include "engine/family/parts/element_steps.hpp"
 #include "engine/view/catalog.hpp"
 
 namespace extremal::views {
@@ -8,7 +9,7 @@ namespace {
 
 bool hasElementClocks(const System& system) {
     for (const Family& family : families())
-        if (family.elements && appliesTo(family, system)) return true;
+        if (family.parts.find<ElementSteps>() && appliesTo(family, system)) return true;
     return false;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/typed_tableau.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
@@ -162,7 +163,7 @@ private slots:
     void stabilityLimitsAreKnown() {
         const auto limit = [](const char* keys) {
             const Settings s = settingsOf(keys);
-            return findBaseline(s.type)->stabilityLimitOf(s);
+            return findBaseline(s.type)->parts.find<OscillatorLimit>()->of(s);
         };
         QVERIFY(std::abs(limit(kutta) - 2 * std::sqrt(2.0)) < 1e-3);
         QVERIFY(std::abs(limit(verlet) - 2) < 1e-3);

@@ -138,7 +138,7 @@ private slots:
         QTest::addColumn<QString>("baseline");
         const System kepler = makeSystem(readScene(scene(R"({"end":1})", gauss, energy)).scene);
         for (const BaselineEntry& each : baselineCatalog())
-            if (each.isAdaptive && appliesTo(each, kepler))
+            if (each.isAdaptive() && appliesTo(each, kepler))
                 QTest::newRow(each.item.id.c_str()) << QString::fromStdString(each.item.id);
     }
     void errorControlGoesBackwardsAsWell() {

@@ -215,7 +215,7 @@ private slots:
             const ReadScene read = readScene(std::string(R"({"extremal":1,"model":{"type":"kepler"},
                 "initial":{"q":[0.4,0],"p":[0,2]},"time":{"end":1},"schemes":[{"step":0.01,"baseline":")") +
                                              entry.item.id + "\"}]}");
-            if (entry.isAdaptive || !read.resolved) continue;
+            if (entry.isAdaptive() || !read.resolved) continue;
             const auto costIn = [&](std::size_t blockSize) {
                 State state = read.resolved->initial;
                 const auto integrator =

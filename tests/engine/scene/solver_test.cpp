@@ -21,7 +21,7 @@ ReadScene withSolver(const std::string& model, const std::string& scheme, const 
 std::set<std::string> allMethods() {
     std::set<std::string> all;
     for (const Family& family : families())
-        all.insert(family.solverMethods.begin(), family.solverMethods.end());
+        all.insert(solverMethods(family).begin(), solverMethods(family).end());
     return all;
 }
 
@@ -57,7 +57,7 @@ private slots:
         int refused = 0;
         for (const std::string& method : allMethods()) {
             const ReadScene read = withSolver(model.toStdString(), scheme.toStdString(), method);
-            const auto& own = family.solverMethods;
+            const auto& own = solverMethods(family);
             if (std::find(own.begin(), own.end(), method) != own.end()) {
                 QVERIFY2(read.errors.empty(), method.c_str());
                 continue;

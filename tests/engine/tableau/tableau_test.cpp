@@ -8,9 +8,11 @@
 #include <Eigen/LU>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/baseline/splitting_table.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/tables.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/tableau/order_conditions.hpp"
 #include "engine/tableau/tableau.hpp"
@@ -120,11 +122,11 @@ double distance(const Tableau::Matrix& a, const LongMatrix& b) {
 
 std::shared_ptr<const Tableau> tableauOf(const std::string& scheme, double step = 0.1) {
     const Discretization d = *namedScheme(scheme);
-    return familyOf(d.space)->tableau(d, step);
+    return familyPart<Tables>(d.space)->tableau(d, step);
 }
 
 std::shared_ptr<const Tableau> baselineTableau(const std::string& id, const Settings& settings = {}) {
-    return findBaseline(id)->tableau(settings);
+    return findBaseline(id)->parts.find<BaselineTableau>()->of(settings);
 }
 
 Quad worstOf(const std::vector<OrderCondition>& conditions, int upTo) {
@@ -287,7 +289,7 @@ private slots:
     void otherSpacesHaveTableaus() {
         const auto of = [](const Settings& space, const Settings& rule) {
             const Settings complete = completeQuadrature(space, rule);
-            return familyOf(space)->tableau({space, complete, {}}, 0.1);
+            return familyPart<Tables>(space)->tableau({space, complete, {}}, 0.1);
         };
         const Settings spline{"spline", {{"degree", 2.0}, {"cells", 2.0}}, {}};
         const auto t = of(spline, {"gauss", {}, {}});

@@ -4,15 +4,14 @@
 #include <cmath>
 
 #include "engine/family/step_equations.hpp"
+#include "engine/family/parts/shape_functions.hpp"
 #include "engine/model/elliptic.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal::equations {
 namespace {
 
-const EllipticProblem& ellipticOf(const System& system) {
-    return *system.part<EllipticPart>().problem;
-}
+const EllipticProblem& ellipticOf(const System& system) { return *system.part<EllipticPart>().problem; }
 
 /// Of an element: 1 / int ds/a of functions with a constant flux, int a ds / h^2 of straight lines.
 double stiffnessOf(const EllipticProblem& problem, bool isLinear, double from, double h) {
@@ -49,7 +48,7 @@ StepMatrix stiffnessMatrix(const StepCase& c) {
 
 SpaceFunctions ofMiddleNode(const StepCase& c) {
     ShapeFunction shape =
-        familyOf(c.discretization.space)->shapeFunction(c.system, c.discretization, c.step, 0);
+        familyPart<ShapeFunctions>(c.discretization.space)->ofNode(c.system, c.discretization, c.step, 0);
     SpaceFunctions f;
     f.axis = "x";
     f.text = std::to_string(shape.elements) + " elements, the function of node " + std::to_string(shape.node);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/family/family.hpp"
+#include "engine/family/parts/element_steps.hpp"
 #include "engine/mesh/levels.hpp"
 #include "engine/model/field/problem.hpp"
 #include "engine/model/system.hpp"
@@ -256,7 +257,7 @@ private slots:
             long long updates = 0;
             for (int k = 1; k <= 50; ++k) updates += integrator->advance(state, k * step).cost.evaluations;
             const ElementClocks clocks =
-                familyOf(d.space)->elements(system, d, step, 50 * step, state.x.data());
+                familyPart<ElementSteps>(d.space)->clocks(system, d, step, 50 * step, state.x.data());
             double sum = 0, energy = 0;
             for (const double n : clocks.updates) sum += n;
             for (const double e : clocks.energy) energy += e;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "engine/family/field/patch_form.hpp"
+#include "engine/family/parts/starts.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/engine/family/field/fields.hpp"
@@ -271,8 +272,8 @@ private slots:
             second.t += scheme.spec.step.value;
             const ExactSolution exact = scene.system->exactFrom(scene.scene.initial.given, scene.initial);
             exact(second.t, second.x);
-            State state = scheme.family->startThrough(*scene.system, scheme.discretization,
-                                                      scheme.spec.step.value, scene.initial, second);
+            State state = scheme.family->parts.find<StartThrough>()->state(
+                *scene.system, scheme.discretization, scheme.spec.step.value, scene.initial, second);
             const auto integrator = scheme.make(*scene.system, scheme.spec.step.value, state);
             QVERIFY(go(*integrator, state, 1000));
             const double error = errorOf(*scene.system, state, exact);

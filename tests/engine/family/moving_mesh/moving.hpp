@@ -9,6 +9,8 @@
 #include <string>
 
 #include "engine/family/family.hpp"
+#include "engine/family/parts/meshes.hpp"
+#include "engine/family/parts/starts.hpp"
 #include "engine/model/field/moving_field.hpp"
 #include "engine/model/field/problem.hpp"
 #include "engine/model/system.hpp"
@@ -89,9 +91,9 @@ struct Run {
                           {"auto", {}, {}},
                           {}};
         const Family& family = *familyOf(discretization.space);
-        system = findModel("field")->make(*family.model(discretization.space, model));
+        system = findModel("field")->make(*family.parts.find<OwnMesh>()->model(discretization.space, model));
         const Settings initial{"", c.initial, {}};
-        state = family.start(system, discretization, initial, c.start);
+        state = family.parts.find<OwnStart>()->state(system, discretization, initial, c.start);
         exact = system.exactFrom(initial, state);
         integrator = makeIntegrator(system, discretization, {c.start, c.step});
     }
