@@ -46,5 +46,10 @@ Claims claimsOf(const BaselineEntry& entry, const Settings& settings, const Syst
 
 const std::vector<BaselineEntry>& baselineCatalog();
 const BaselineEntry* findBaseline(std::string_view id);
+/// Those that can integrate a system.
+std::vector<const BaselineEntry*> baselinesFor(const System& system);
+/// What a user may take instead of a scheme that does not take a system: "it has the spaces .., and the
+/// baselines ..", of those that take it with their default keys, or that there is nothing.
+std::string schemesFor(const System& system);
 
 }  // namespace extremal

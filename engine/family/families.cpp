@@ -186,6 +186,14 @@ const std::vector<CatalogItem>& spaceCatalog() {
     return items;
 }
 
+std::vector<CatalogItem> spacesFor(const System& system) {
+    std::vector<CatalogItem> items;
+    for (const Family& family : families())
+        if (appliesTo(family, system))
+            for (const SpaceEntry& entry : family.spaces) items.push_back(entry.item);
+    return items;
+}
+
 const std::vector<std::string>& solverMethods(const Family& family) {
     static const std::vector<std::string> none;
     const auto* const methods = family.parts.find<SolverMethods>();
@@ -245,14 +253,7 @@ Discretization withEstimates(const Discretization& discretization, const System&
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& discretization,
                                            const Clock& clock) {
     const Family& family = knownFamily(discretization.space);
-    if (!appliesTo(family, system)) {
-        std::vector<std::string> fitting;
-        for (const Family& other : families())
-            if (appliesTo(other, system))
-                for (const SpaceEntry& entry : other.spaces) fitting.push_back(entry.item.id);
-        throw InvalidScene("/space/type", mismatch(discretization, system),
-                           fitting.empty() ? "a baseline" : "it has " + joinNames(fitting));
-    }
+    if (!appliesTo(family, system)) throw InvalidScene("/space/type", mismatch(discretization, system));
     const std::string& method = discretization.solver.type;
     const auto& methods = solverMethods(family);
     if (!method.empty() && method != "auto" &&

@@ -83,6 +83,8 @@ const Family* findFamily(std::string_view id);
 
 /// All spaces of all families.
 const std::vector<CatalogItem>& spaceCatalog();
+/// Those of the families that apply to a system.
+std::vector<CatalogItem> spacesFor(const System& system);
 
 /// What the key `method` of a solver may be besides "auto".
 const std::vector<std::string>& solverMethods(const Family& family);

@@ -5,7 +5,6 @@
 
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/starts.hpp"
@@ -17,24 +16,16 @@
 namespace extremal {
 namespace {
 
-/// What takes the system, for a hint: the baselines, else the spaces.
-std::string schemesFor(const System& system) {
-    std::vector<std::string> fitting;
-    for (const BaselineEntry& e : baselineCatalog())
-        if (appliesTo(e, system)) fitting.push_back(e.item.id);
-    if (!fitting.empty()) return "it has " + joinNames(fitting);
-    for (const Family& family : families())
-        if (appliesTo(family, system)) return "take a space and a quadrature";
-    return "no scheme takes it";
-}
-
-/// Throws InvalidScene, naming those that can.
-void refuseBaseline(const BaselineEntry& entry, const System& system) {
+/// Why the family or the baseline of a scheme does not take the system; empty if it does. What a single space
+/// has against the system is said by its maker.
+std::string refusalOf(const ResolvedScheme& scheme, const System& system) {
+    if (scheme.family)
+        return appliesTo(*scheme.family, system) ? std::string() : mismatch(scheme.discretization, system);
+    const BaselineEntry& entry = *scheme.baseline;
+    if (appliesTo(entry, system)) return {};
     const std::string instead = neededInstead(entry.takes, system.parts);
     const std::string& needed = instead.empty() ? entry.item.needs : instead;
-    const std::string reason = needed.empty() ? "" : ": it needs " + needed;
-    throw InvalidScene("/baseline", entry.item.id + " cannot integrate " + system.id + reason,
-                       schemesFor(system));
+    return entry.item.id + " cannot integrate " + system.id + (needed.empty() ? "" : ": it needs " + needed);
 }
 
 }  // namespace
@@ -56,11 +47,12 @@ bool ResolvedScheme::fits(const System& system) const {
 
 std::unique_ptr<Integrator> ResolvedScheme::make(const System& system, double step,
                                                  const State& start) const {
+    if (const std::string refusal = refusalOf(*this, system); !refusal.empty())
+        throw InvalidScene(family ? "/space/type" : "/baseline", refusal, schemesFor(system));
     std::unique_ptr<Integrator> integrator;
     if (family) {
         integrator = makeIntegrator(system, withEstimates(discretization, system, start), {start.t, step});
     } else {
-        if (!appliesTo(*baseline, system)) refuseBaseline(*baseline, system);
         BaselineOptions options;
         options.step = step;
         options.start = start;

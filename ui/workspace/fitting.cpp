@@ -24,21 +24,10 @@ Properties describedSafely(const ChoiceGrid::Cell& cell) {
 
 }  // namespace
 
-std::vector<CatalogItem> fittingSpaces(const Scene& scene) {
-    const System system = makeSystem(scene);
-    std::vector<CatalogItem> items;
-    for (const Family& family : families())
-        if (appliesTo(family, system))
-            for (const SpaceEntry& e : family.spaces) items.push_back(e.item);
-    return items;
-}
+std::vector<CatalogItem> fittingSpaces(const Scene& scene) { return spacesFor(makeSystem(scene)); }
 
 std::vector<const BaselineEntry*> fittingBaselines(const Scene& scene) {
-    const System system = makeSystem(scene);
-    std::vector<const BaselineEntry*> entries;
-    for (const BaselineEntry& e : baselineCatalog())
-        if (canIntegrate(e, system)) entries.push_back(&e);
-    return entries;
+    return baselinesFor(makeSystem(scene));
 }
 
 std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene) {
