@@ -2,6 +2,8 @@
 /// The worked examples of the handbook ("Adding to the program"): each is one file, and does what the
 /// handbook says.
 #include <QFile>
+#include <QFileInfo>
+#include <QRegularExpression>
 #include <QTest>
 
 #include <cmath>
@@ -10,6 +12,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/figure/recipe.hpp"
 #include "tests/examples/boole.cpp"
+#include "tests/examples/damped_euler.cpp"
 #include "tests/examples/galerkin_fine.cpp"
 #include "tests/examples/line/family.cpp"
 #include "tests/examples/quartic_oscillator.cpp"
@@ -154,6 +157,39 @@ private slots:
                  qPrintable(QString::number(area - 1)));
     }
 
+    /// A part is refused by whoever does not name it, with its title as the reason.
+    void partIsTakenByThoseAloneWhoSaySo() {
+        System system = harmonic();
+        const BaselineEntry own = baselines::damped_euler();
+        QVERIFY(appliesTo(own, system));
+        system.parts.set(Drag{0.5});
+        QVERIFY(appliesTo(own, system));
+        for (const Family& family : families()) QVERIFY2(!appliesTo(family, system), family.item.id.c_str());
+        for (const BaselineEntry& entry : baselineCatalog())
+            QVERIFY2(!appliesTo(entry, system), entry.item.id.c_str());
+        QCOMPARE(mismatch(*namedScheme("galerkin-gauss-2"), system),
+                 std::string("polynomial needs a problem without a drag, which harmonic-oscillator is not"));
+    }
+
+    void baselineSlowsDownWithThePartThatItTakes() {
+        System system = harmonic();
+        constexpr double c = 0.5, T = 2;
+        system.parts.set(Drag{c});
+        const auto error = [&](int n) {
+            const auto integrator = baselines::damped_euler().make(system, {T / n, {}, 0, {}});
+            State state{0, 0, {1, 0}, {}};
+            for (int i = 0; i < n; ++i)
+                if (advance(*integrator, state).outcome != Outcome::converged) return 0.0;
+            // x'' + c x' + x = 0 from x = 1 at rest
+            const double w = std::sqrt(1 - c * c / 4);
+            const double exact = std::exp(-c * T / 2) * (std::cos(w * T) + c / (2 * w) * std::sin(w * T));
+            return std::abs(state.x[0] - exact);
+        };
+        const double order = std::log2(error(1000) / error(2000));
+        QVERIFY2(std::abs(order - 1) < 0.02 && error(2000) < 1e-3,
+                 qPrintable(QString::number(order) + ", " + QString::number(error(2000))));
+    }
+
     void observableIsComputedAtANode() {
         const System system = quartic();
         const State start{0, 0, {1, 4}}, state{0, 0, {3, -2}};
@@ -184,13 +220,44 @@ private slots:
 
     void handbookShowsTheseFiles() {
         const QString page = fileText("resources/handbook/extending.md");
-        for (const char* name : {"quartic_oscillator", "trigonometric", "boole", "galerkin_fine", "virial",
-                                 "virial_view", "line/family"}) {
-            QString code = fileText(QStringLiteral("tests/examples/%1.cpp").arg(name));
+        for (const char* name :
+             {"quartic_oscillator.cpp", "drag.hpp", "damped_euler.cpp", "trigonometric.cpp", "boole.cpp",
+              "galerkin_fine.cpp", "virial.cpp", "virial_view.cpp", "line/family.cpp"}) {
+            QString code = fileText(QStringLiteral("tests/examples/%1").arg(name));
             QVERIFY(code.startsWith("// SPDX"));
             code.remove(0, code.indexOf('\n') + 1);
             QVERIFY2(page.contains("```cpp\n" + code + "```"), name);
         }
+    }
+
+    /// Each row of the table that says how many files an addition touches names so many: new ones by a
+    /// pattern of their folder, and others that exist.
+    void handbookCountsTheFilesOfAnAddition() {
+        const QString page = fileText("resources/handbook/extending.md");
+        const QStringList rows =
+            page.section("| what | files | new | changed |", 1, 1).section("\n\n", 0, 0).split('\n');
+        QStringList found;
+        for (const QString& row : rows) {
+            const QStringList cells = row.split('|');
+            if (cells.size() < 5 || cells[1].contains("---")) continue;
+            static const QRegularExpression quoted("`([^`]+)`");
+            const auto filesIn = [](const QString& cell) {
+                QStringList files;
+                for (auto each = quoted.globalMatch(cell); each.hasNext();) files << each.next().captured(1);
+                return files;
+            };
+            const QStringList added = filesIn(cells[3]), changed = filesIn(cells[4]);
+            found << cells[1].trimmed();
+            QVERIFY2(cells[2].trimmed().toInt() == added.size() + changed.size(), qPrintable(row));
+            for (const QString& file : added) {
+                const QString folder = file.section("/<", 0, 0);
+                QVERIFY2(QFileInfo(QStringLiteral(EXTREMAL_SOURCE_DIR "/") + folder).isDir(),
+                         qPrintable(file));
+            }
+            for (const QString& file : changed) QVERIFY2(!fileText(file).isEmpty(), qPrintable(file));
+        }
+        QCOMPARE(found, (QStringList{"system", "part", "space", "rule", "scheme", "family", "baseline",
+                                     "observable", "view"}));
     }
 };
 

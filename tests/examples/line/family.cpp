@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "engine/family/family.hpp"
+#include "engine/family/parts/solver_methods.hpp"
 #include "engine/solve/newton.hpp"
 
 namespace extremal::family {
@@ -93,6 +94,13 @@ ChoiceGrid choices(const System&) {
     return grid;
 }
 
+WrittenAction written(const Discretization&) {
+    return {"A straight line in each element, and the rule with its one node where it begins.",
+            {{"S = Σ_k h L(t_k, q_k, v_k)", "S = \\sum_k h\\, L(t_k, q_k, v_k)"}},
+            {{"L_v(t_k, q_k, v_k) = p_k + h L_q(t_k, q_k, v_k)",
+              "L_v(t_k, q_k, v_k) = p_k + h\\, L_q(t_k, q_k, v_k)"}}};
+}
+
 }  // namespace
 
 Family line() {
@@ -101,12 +109,17 @@ Family line() {
     f.source = "Leok 2004, sec. 2";
     f.spaces = {lineSpace()};
     f.completeRule = [](const Settings&, const Settings&) { return Settings{"auto", {}, {}}; };
-    f.describe = describeLine;
-    f.choices = choices;
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
+    f.describe = describeLine;
+    // Nothing stands against a step but the stability limit that describeLine states.
+    f.check = [](const SchemeCase&, Findings&) {};
+    f.choices = choices;
+    f.written = written;
     f.make = [](const System& system, const Discretization&, double step) -> std::unique_ptr<Integrator> {
         return std::make_unique<LineStep>(system.mechanics(), step);
     };
+    // What only some families have is a part.
+    f.parts.set(SolverMethods{{"newton"}});
     return f;
 }
 
