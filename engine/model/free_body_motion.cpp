@@ -2,13 +2,11 @@
 #include "engine/model/free_body_motion.hpp"
 
 #include <algorithm>
-#include <boost/math/special_functions/ellint_rf.hpp>
-#include <boost/math/special_functions/ellint_rj.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "engine/core/quiet.hpp"
+#include "engine/core/carlson.hpp"
 #include "engine/group/so3.hpp"
 #include "engine/model/jacobi_elliptic.hpp"
 
@@ -63,12 +61,11 @@ public:
         rate_ = (square(0) / I_(0) + square(1) / I_(1) + square(2) / I_(2)) / L_;
         const double amplification = std::abs(kappa_) / lambda_ * std::max(C_, L_ * std::abs(n_));
         if (!(amplification < 1e3) || !std::isfinite(n_) || !(m1_ >= 0)) return false;
-        quarter_ =
-            m1_ > 0 ? boost::math::ellint_rf(0.0, m1_, 1.0, quiet) : std::numeric_limits<double>::infinity();
-        thirdKind_ = m1_ > 0 ? n_ / 3 * boost::math::ellint_rj(0.0, m1_, 1.0, 1 - n_, quiet) : 0;
+        quarter_ = m1_ > 0 ? carlsonRf(0.0, m1_, 1.0) : std::numeric_limits<double>::infinity();
+        thirdKind_ = m1_ > 0 ? n_ / 3 * carlsonRj(0.0, m1_, 1.0, 1 - n_) : 0;
         // Pi_1 >= 0 at the start by the renaming: u_0 is in the first or the last quarter.
         const double s = std::clamp(turn_ * P(1) / B_, -1.0, 1.0), c = P(0) / A_;
-        u0_ = s * boost::math::ellint_rf(c * c, P(2) * P(2) / (C_ * C_), 1.0, quiet);
+        u0_ = s * carlsonRf(c * c, P(2) * P(2) / (C_ * C_), 1.0);
         double angle = 0;
         place(u0_, angle, S0_);
         angle0_ = angle;
@@ -125,10 +122,9 @@ private:
         const double parity = std::fmod(std::abs(halves), 2) == 1 ? -1 : 1;
         const JacobiElliptic j(v, m1_);
         const double root = std::sqrt(1 - n_);
-        const double third =
-            n_ == 0 ? 0
-                    : n_ / 3 * j.sn * j.sn * j.sn *
-                          boost::math::ellint_rj(j.cn * j.cn, j.dn * j.dn, 1.0, 1 - n_ * j.sn * j.sn, quiet);
+        const double third = n_ == 0 ? 0
+                                     : n_ / 3 * j.sn * j.sn * j.sn *
+                                           carlsonRj(j.cn * j.cn, j.dn * j.dn, 1.0, 1 - n_ * j.sn * j.sn);
         const double arc = (std::numbers::pi * halves + std::atan2(root * j.sn, j.cn)) / root;
         angle = C_ * C_ / L_ * u + L_ * (2 * halves * thirdKind_ + third) - C_ * arc;
         const Vector P(parity * A_ * j.cn, parity * turn_ * B_ * j.sn, C_ * j.dn);

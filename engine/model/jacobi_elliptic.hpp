@@ -10,12 +10,11 @@
 #pragma once
 
 #include <array>
-#include <boost/math/special_functions/ellint_rf.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
-#include "engine/core/quiet.hpp"
+#include "engine/core/carlson.hpp"
 
 namespace extremal {
 
@@ -63,13 +62,13 @@ struct JacobiElliptic {
 
 /// K(m1); infinity at 0.
 inline double quarterPeriod(double m1) {
-    return m1 > 0 ? boost::math::ellint_rf(0.0, m1, 1.0, quiet) : std::numeric_limits<double>::infinity();
+    return m1 > 0 ? carlsonRf(0.0, m1, 1.0) : std::numeric_limits<double>::infinity();
 }
 
 /// F(phi) from s = sin(phi), the square of cos(phi) >= 0, and the square of Delta, 1 - k^2 sin^2(phi), which
 /// the caller knows without cancellation.
 inline double integralOfFirstKind(double s, double cosine2, double delta2) {
-    return s * boost::math::ellint_rf(cosine2, delta2, 1.0, quiet);
+    return s * carlsonRf(cosine2, delta2, 1.0);
 }
 
 }  // namespace extremal
