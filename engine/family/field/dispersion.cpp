@@ -93,4 +93,32 @@ double timeLimit(const TimeTable& time, double steps) {
     return std::numeric_limits<double>::infinity();
 }
 
+/// Of the branches of arccos the one nearest to the field equation.
+DispersionCurve dispersionCurve(const FieldProblem& problem, const Rule<double>& rule, const TimeTable& time,
+                                double step) {
+    const int r = problem.nodes.degree;
+    const double dx = problem.mesh.length() / problem.mesh.elements(), k = problem.elastic.k,
+                 turn = 2 * std::acos(-1.0);
+    const double curvature = problem.potential.isLinear() ? problem.potential.largestCurvature(0, 0) : 0;
+    constexpr int points = 300;
+    DispersionCurve curve;
+    for (int i = 1; i <= points; ++i) {
+        const double kdx = r * turn / 2 * i / points * (1 - 1e-12), K = kdx / dx;
+        const double exact = std::sqrt(k * K * K + curvature), wanted = step * exact;
+        const double z = step * std::sqrt(k * spatialEigenvalue(r, rule, kdx) / (dx * dx) + curvature);
+        const double half = std::isfinite(z) ? halfTrace(time, z) : std::nan("");
+        double best = std::nan("");
+        if (std::abs(half) <= 1 + 1e-12) {
+            const double angle = std::acos(std::clamp(half, -1.0, 1.0)),
+                         turns = turn * std::round(wanted / turn);
+            for (const double candidate : {turns + angle, turns - angle})
+                if (!(std::abs(candidate - wanted) >= std::abs(best - wanted))) best = candidate;
+        }
+        curve.waveNumber.push_back(K);
+        curve.frequency.push_back(best / step);
+        curve.exact.push_back(exact);
+    }
+    return curve;
+}
+
 }  // namespace extremal

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/family/field/discretization.hpp"
+#include "engine/family/parts/dispersion.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 
 namespace extremal {
@@ -28,5 +29,9 @@ std::vector<UnstableInterval> timeIntervals(const TimeTable& time);
 /// of all frequencies up to its highest, so that an interval that matters is a limit. Without a number of
 /// steps every interval matters.
 double timeLimit(const TimeTable& time, double steps = std::numeric_limits<double>::infinity());
+
+/// W(K) up to r pi waves in an element of degree r, with the rule of the elements in space.
+DispersionCurve dispersionCurve(const FieldProblem& problem, const Rule<double>& rule, const TimeTable& time,
+                                double step);
 
 }  // namespace extremal

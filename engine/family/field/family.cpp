@@ -372,34 +372,10 @@ ChoiceGrid choices(const System& system) {
     return grid;
 }
 
-/// Up to r pi waves in an element. Of the branches of arccos the one nearest to the field equation.
 DispersionCurve dispersionOf(const System& system, const Discretization& d, double step) {
     const auto problem = problemFor(system, d);
-    const int r = problem->nodes.degree;
-    const Rule<double> rule = ruleIn(d.quadrature, "space", r);
-    const TimeTable time = timeTable(d);
-    const double dx = problem->mesh.length() / problem->mesh.elements(), k = problem->elastic.k,
-                 turn = 2 * std::acos(-1.0);
-    const double curvature = problem->potential.isLinear() ? problem->potential.largestCurvature(0, 0) : 0;
-    constexpr int points = 300;
-    DispersionCurve curve;
-    for (int i = 1; i <= points; ++i) {
-        const double kdx = r * turn / 2 * i / points * (1 - 1e-12), K = kdx / dx;
-        const double exact = std::sqrt(k * K * K + curvature), wanted = step * exact;
-        const double z = step * std::sqrt(k * spatialEigenvalue(r, rule, kdx) / (dx * dx) + curvature);
-        const double half = std::isfinite(z) ? halfTrace(time, z) : std::nan("");
-        double best = std::nan("");
-        if (std::abs(half) <= 1 + 1e-12) {
-            const double angle = std::acos(std::clamp(half, -1.0, 1.0)),
-                         turns = turn * std::round(wanted / turn);
-            for (const double candidate : {turns + angle, turns - angle})
-                if (!(std::abs(candidate - wanted) >= std::abs(best - wanted))) best = candidate;
-        }
-        curve.waveNumber.push_back(K);
-        curve.frequency.push_back(best / step);
-        curve.exact.push_back(exact);
-    }
-    return curve;
+    return dispersionCurve(*problem, ruleIn(d.quadrature, "space", problem->nodes.degree), timeTable(d),
+                           step);
 }
 
 /// R_0 = 0 of the slab between the two levels, for v.
