@@ -134,6 +134,13 @@ typed::Formula LagrangianEditor::formulaNow() const {
     return formulaIn(model);
 }
 
+/// Whether the model has constraints or forces beside its Lagrangian.
+bool LagrangianEditor::hasDrive(const Value& document) {
+    for (const char* key : {"constraints", "forces", "dissipation"})
+        if (valueAt(document, std::string("/model/") + key)) return true;
+    return false;
+}
+
 /// Differentiates in a background thread; the engine remembers the result, so that using it is fast.
 void LagrangianEditor::check() {
     if (!isVisibleTo(parentWidget()) || workspace_.scene().model.type != "lagrangian") return;
@@ -156,6 +163,11 @@ void LagrangianEditor::take(const std::string& text, const typed::Examination& f
         QString lines;
         for (const std::string& line : found.equations)
             lines += "<p style='margin:2px 0'>" + QString::fromStdString(line) + "</p>";
+        // With constraints and forces the left-hand sides are these.
+        if (hasDrive(workspace_.document())) {
+            lines.replace(" = 0</p>", " = <i>Q</i></p>");
+            lines += "<p style='margin:2px 0'>" + tr("Q: forces, and reactions of constraints") + "</p>";
+        }
         equations_->setText(lines);
     }
     equations_->setVisible(!found.equations.empty());

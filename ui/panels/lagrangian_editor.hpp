@@ -45,6 +45,7 @@ private:
     void takeNow();
     bool change(const EditsOfScene& edits, const QString& what, const FollowingText& follow);
     typed::Formula formulaNow() const;
+    static bool hasDrive(const Value& document);
 
     Workspace& workspace_;
     FormulaEdit* text_;
