@@ -35,7 +35,7 @@ std::string machineText() {
 }
 
 std::filesystem::path partLog(const AtlasSystem& system, const AtlasPart& part,
-                            const std::filesystem::path& folder) {
+                              const std::filesystem::path& folder) {
     return folder / (part.logName(system.id) + ".log");
 }
 
@@ -45,7 +45,8 @@ void checkFiles(const std::vector<AtlasSystem>& systems, const std::filesystem::
     requireReplaceable(folder / "index.html", replacing);
     for (const AtlasSystem& system : systems) {
         requireReplaceable(folder / (system.id + ".svg"), replacing);
-        for (const AtlasPart& part : system.parts) requireReplaceable(partLog(system, part, folder), replacing);
+        for (const AtlasPart& part : system.parts)
+            requireReplaceable(partLog(system, part, folder), replacing);
     }
 }
 

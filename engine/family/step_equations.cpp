@@ -71,7 +71,8 @@ const StepEquations& equationsOf(const Discretization& discretization) {
 std::optional<LocalCoordinates> localCoordinates(const System& system, const State& start) {
     for (const StepEquations& e : stepEquations()) {
         const Family* const family = findFamily(e.family);
-        if (e.coordinates.make && family && appliesTo(*family, system)) return e.coordinates.make(system, start);
+        if (e.coordinates.make && family && appliesTo(*family, system))
+            return e.coordinates.make(system, start);
     }
     return {};
 }

@@ -110,8 +110,8 @@ struct NewtonLimits {
     }
 };
 
-/// How often half of a correction is taken back that leads out of the domain of L, before an iteration is given
-/// up: so many halvings leave 1e-9 of it.
+/// How often half of a correction is taken back that leads out of the domain of L, before an iteration is
+/// given up: so many halvings leave 1e-9 of it.
 inline constexpr int mostRetreats = 30;
 
 template <class T>

@@ -176,10 +176,11 @@ class PassportTest : public QObject {
         // More points than brackets that Python nests.
         QString points;
         for (int k = 0; k < 400; ++k) points += QString(";%1,%2").arg(0.01 * k - 0.5).arg(k % 7);
-        QTest::newRow("a long table") << functions(qPrintable("x*table(t" + points + ")/9+y*spline(x" +
-                                                              points.left(2000).section(';', 0, -2) + ")/1e6"))
-                                      << R"~({"scheme": "galerkin-gauss-2", "step": 0.0625})~"
-                                      << "3";
+        QTest::newRow("a long table")
+            << functions(qPrintable("x*table(t" + points + ")/9+y*spline(x" +
+                                    points.left(2000).section(';', 0, -2) + ")/1e6"))
+            << R"~({"scheme": "galerkin-gauss-2", "step": 0.0625})~"
+            << "3";
     }
     void programsAgreeWithTheRun() {
         QFETCH(QString, preset);

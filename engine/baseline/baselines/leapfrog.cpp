@@ -25,7 +25,8 @@ BaselineEntry leapfrog() {
         "a wave function or a field"};
     e.takes = Takes::only<Wave, ScalarField>();
     e.parts.set(ClaimsOnSystem{[](const System& system) {
-        if (system.parts.find<ScalarField>()) return Claims{2, true, true, {"multisymplectic form", "momentum"}, true};
+        if (system.parts.find<ScalarField>())
+            return Claims{2, true, true, {"multisymplectic form", "momentum"}, true};
         return Claims{2, true, true, {"bilinear form"}, false};
     }});
     e.parts.set(OrderInSpace{2});

@@ -78,8 +78,8 @@ StepEquations moving_mesh() {
     e.matrixTitle = "Matrix of values and places";
     e.blockName = [](const UnknownBlock&, int) { return std::string("y, X"); };
     e.extent = [](const System& system, int, int nodes) {
-        return std::to_string(nodes) + " of " +
-               std::to_string(system.part<ScalarField>().problem->size()) + " nodes";
+        return std::to_string(nodes) + " of " + std::to_string(system.part<ScalarField>().problem->size()) +
+               " nodes";
     };
     e.functions.make = [](const StepCase&) {
         return makeTable<double>(polynomialSpace<double>(1, PolynomialBasis::lobatto), gauss<double>(1));
