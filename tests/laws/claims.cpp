@@ -10,6 +10,8 @@
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/mechanism/mechanism_start.hpp"
+#include "engine/model/parts/constraint.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/observe/catalog.hpp"
 #include "tests/laws/bodies.hpp"
@@ -47,7 +49,8 @@ double errorOf(const Trial& trial, long long steps) {
 }
 
 /// In coordinates: M^T J M - J for the derivative M of one step by central differences of order 6. Every
-/// coordinate is measured in its own size, every entry (i, j) in the root of the actions of i and j.
+/// coordinate is measured in its own size, every entry (i, j) in the root of the actions of i and j. With
+/// constraints on their manifold: displaced states are put back on it.
 double canonicalDefect(const Trial& trial, double each) {
     const Subject& on = trial.on;
     const std::size_t d = on.half();
@@ -58,8 +61,18 @@ double canonicalDefect(const Trial& trial, double each) {
         integrator->begin(from);
         return after(*integrator, from, 1);
     };
-    const auto M = jacobianOf(step, on.start, 5e-4, on.own);
-    return M ? symplecticDefect(*M, action) : unknown;
+    if (!on.system.parts.find<Constraint>()) {
+        const auto M = jacobianOf(step, on.start, 5e-4, on.own);
+        return M ? symplecticDefect(*M, action) : unknown;
+    }
+    const auto onManifold = [&](State from) -> std::optional<State> {
+        putOnConstraints(on.system, from, true);
+        return from;
+    };
+    const auto B = jacobianOf(onManifold, on.start, 5e-4, on.own),
+               M = jacobianOf([&](const State&from) { return step(*onManifold(from)); }, on.start, 5e-4,
+                              on.own);
+    return B && M ? symplecticDefect(*M, action, &*B) : unknown;
 }
 
 /// How far a step moves <a, b>, whose imaginary part is the symplectic form and whose real part the metric.

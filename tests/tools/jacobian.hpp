@@ -46,17 +46,22 @@ std::optional<Jacobian> jacobianOf(const Step& step, const State& start, double 
 }
 
 /// The largest entry of M^T J M - J for coordinates before their momenta, relative to the largest entry of M.
-/// `action` is the product of the units of a coordinate and its momentum (empty: all 1).
-inline double symplecticDefect(const Jacobian& M, std::span<const double> action = {}) {
+/// `action` is the product of the units of a coordinate and its momentum (empty: all 1). On a manifold the
+/// columns of `tangent` are those of its tangents B at the start, those of M their images, and the form is
+/// B^T J B.
+inline double symplecticDefect(const Jacobian& M, std::span<const double> action = {},
+                               const Jacobian* tangent = nullptr) {
     const std::size_t d = M.size / 2;
     const auto unit = [&](std::size_t i) { return action.empty() ? 1.0 : action[i % d]; };
     double largest = 0, defect = 0;
     for (std::size_t i = 0; i < M.size; ++i)
         for (std::size_t j = 0; j < M.size; ++j) {
             largest = std::max(largest, std::abs(M(i, j)));
-            double w = j == i + d ? -unit(i) : i == j + d ? unit(j) : 0;
-            for (std::size_t k = 0; k < d; ++k)
-                w += unit(k) * (M(k, i) * M(k + d, j) - M(k + d, i) * M(k, j));
+            double w = tangent ? 0 : j == i + d ? -unit(i) : i == j + d ? unit(j) : 0;
+            const auto form = [&](const Jacobian& of, std::size_t k) {
+                return unit(k) * (of(k, i) * of(k + d, j) - of(k + d, i) * of(k, j));
+            };
+            for (std::size_t k = 0; k < d; ++k) w += form(M, k) - (tangent ? form(*tangent, k) : 0);
             defect = std::max(defect, std::abs(w) / std::sqrt(unit(i) * unit(j)));
         }
     return defect / largest;
