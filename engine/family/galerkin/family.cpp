@@ -167,6 +167,10 @@ std::string mechanismProblem(const Discretization& d, const System& system) {
     if (galerkin::isSplit(d))
         return "one space and one rule are needed for " + what +
                ": rules for terms and spaces for coordinates are for a Lagrangian alone";
+    if (galerkin::cellsIn(d.space) > 1 && system.parts.find<Constraint>())
+        return "splines with cells lose order under a constraint, which holds at the Lobatto nodes of the "
+               "whole "
+               "step: polynomials keep it";
     if (dependsOnStep(d.space))
         return "functions that change with the step are for a Lagrangian alone, without " + what;
     return {};

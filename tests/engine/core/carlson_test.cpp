@@ -7,9 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <vector>
 
-#include "engine/model/free_body_motion.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::carlson_test {
@@ -31,14 +29,6 @@ private slots:
                 QVERIFY(std::isnan(carlsonRf(bad, 0.5, 1)) && std::isnan(carlsonRf(0.5, 1, bad)));
                 QVERIFY(std::isnan(carlsonRj(bad, 0.5, 1, 0.3)) && std::isnan(carlsonRj(0.5, 0.5, 1, bad)));
             }
-    }
-    /// A free body at times where its phase is lost.
-    void aBodyFarInTime() {
-        const State start{0, 0, {1, 0, 0, 0, 0.45, 0, 0.89, 0.45, 0, 0.89}};
-        const ExactSolution motion = freeBodyMotion({1, 2, 3}, start);
-        std::vector<double> x(10);
-        for (int i = 0; i < 1000; ++i) motion(-1e308, x);
-        QVERIFY(!std::isfinite(x[0]));
     }
 };
 
