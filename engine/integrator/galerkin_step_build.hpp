@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/exact_sum.hpp"
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/integrator/galerkin_step_solve.hpp"
 #include "engine/integrator/galerkin_step_sums.hpp"
@@ -132,7 +133,7 @@ void GalerkinStep<T, D>::resume(const T* q, const T* p) {
     carryP_.setZero();
 }
 
-/// Adds the increments to (q, p); the carries keep what is lost (Knuth's exact sum).
+/// Adds the increments to (q, p); the carries keep what is lost (core/exact_sum.hpp).
 template <class T, int D>
 void GalerkinStep<T, D>::add(T* q, T* p) {
     if (!isSolvedByFixedPoint_) {
@@ -145,14 +146,9 @@ void GalerkinStep<T, D>::add(T* q, T* p) {
         }
         previousY_ = Y_;
     }
-    const auto sum = [](const T& a, const T& b, T& lost) {
-        const T s = a + b, back = s - a;
-        lost = (a - (s - back)) + (b - back);
-        return s;
-    };
     for (int k = 0; k < d(); ++k) {
-        q[k] = lastQ_(k) = sum(q0_(k), dq_(k) + carryQ_(k), carryQ_(k));
-        p[k] = lastP_(k) = sum(p0_(k), dp_(k) + carryP_(k), carryP_(k));
+        q[k] = lastQ_(k) = addExactly(T(q0_(k)), T(dq_(k) + carryQ_(k)), carryQ_(k));
+        p[k] = lastP_(k) = addExactly(T(p0_(k)), T(dp_(k) + carryP_(k)), carryP_(k));
     }
 }
 

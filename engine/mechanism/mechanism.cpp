@@ -30,7 +30,7 @@ Mechanism::Mechanism(const Parts& parts)
     byPlace_ = Rows::Zero(n, d);
     gradient_ = Vector::Zero(2 * d);
     for (Vector* v : {&value_, &byTime_, &rates_}) *v = Vector::Zero(n);
-    forces_ = velocity_ = Vector::Zero(d);
+    forces_ = velocity_ = byTimeOfMomentum_ = Vector::Zero(d);
     rhs_ = Vector::Zero(d + n);
 }
 
@@ -58,18 +58,19 @@ bool Mechanism::factoriseSaddle() {
 bool Mechanism::accelerate(double t, const double* q, const double* v, Vector& acceleration,
                            Vector& multipliers) {
     const int d = dimension(), n = constraints();
-    Vector byTime = Vector::Zero(d);  // L_vt
+    byTimeOfMomentum_.setZero();
     if (mechanics_.isTimeDependent) {
         const double apart = 1e-6 * std::max(1.0, std::abs(t));
         mechanics_.gradient(mechanics_.model.get(), t + apart, q, v, gradient_.data());
-        byTime = gradient_.tail(d);
+        byTimeOfMomentum_ = gradient_.tail(d);
         mechanics_.gradient(mechanics_.model.get(), t - apart, q, v, gradient_.data());
-        byTime = (byTime - gradient_.tail(d)) / (2 * apart);
+        byTimeOfMomentum_ = (byTimeOfMomentum_ - gradient_.tail(d)) / (2 * apart);
     }
     evaluate(t, q, v);
     if (constraint_) constraint_->rates(constraint_->model.get(), t, q, v, rates_.data());
     const Eigen::Map<const Vector> velocity(v, d);
-    rhs_.head(d) = gradient_.head(d) + forces_ - hessian_.bottomLeftCorner(d, d) * velocity - byTime;
+    rhs_.head(d) =
+        gradient_.head(d) + forces_ - hessian_.bottomLeftCorner(d, d) * velocity - byTimeOfMomentum_;
     rhs_.tail(n) = -rates_;
     if (!factoriseSaddle()) return false;
     lu_.solve(rhs_.data());
@@ -142,9 +143,8 @@ bool Mechanism::flow(double t, const double* q, const double* p, double* qdot, d
         for (int i = 0; i < d; ++i) pdot[i] = gradient_(i) + (force_ ? forces_(i) : 0);
         return true;
     }
-    Vector acceleration, multipliers;
-    if (!accelerate(t, q, qdot, acceleration, multipliers)) return false;
-    Eigen::Map<Vector>(pdot, d) = gradient_.head(d) + forces_ + byPlace_.transpose() * multipliers;
+    if (!accelerate(t, q, qdot, acceleration_, multipliers_)) return false;
+    Eigen::Map<Vector>(pdot, d) = gradient_.head(d) + forces_ + byPlace_.transpose() * multipliers_;
     return true;
 }
 

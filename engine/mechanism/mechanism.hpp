@@ -73,7 +73,8 @@ private:
     std::optional<Force> force_;
     SmallLu<double> lu_;
     Rows hessian_, byPlace_;
-    Vector gradient_, value_, byTime_, rates_, forces_, rhs_, velocity_;
+    Vector gradient_, value_, byTime_, rates_, forces_, rhs_, velocity_, acceleration_, multipliers_;
+    Vector byTimeOfMomentum_;  ///< L_vt
 };
 
 }  // namespace extremal

@@ -9,6 +9,7 @@
 
 #include "engine/action/element_kernel.hpp"
 #include "engine/core/dense.hpp"
+#include "engine/core/exact_sum.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/quadrature/rule.hpp"
@@ -34,13 +35,6 @@ Samples samplesOf(const Table<double>& table, const std::vector<double>& places)
         s.slope.row(j) = Eigen::Map<const Vector>(slope.data(), table.space.size).transpose() * table.change;
     }
     return s;
-}
-
-/// a + b, with what is lost to rounding (Knuth's exact sum).
-double addExactly(double a, double b, double& lost) {
-    const double sum = a + b, back = sum - a;
-    lost = (a - (sum - back)) + (b - back);
-    return sum;
 }
 
 class MechanismStep final : public Integrator {
@@ -149,7 +143,9 @@ public:
         static const Quantity work{"work", "", "W", ""};
         return {&work, 1};
     }
-    void measure(const State&, double* values) const override { values[0] = work_; }
+    void measure(const State&, double* values) const override {
+        values[0] = workOfForces() + workOfConstraints();
+    }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<MechanismStep>(*this); }
     bool checkpoint(Archive& archive) override {
@@ -172,7 +168,8 @@ private:
         StepContinuation<double> continuation;
         const bool hasArrived = continuation.follow(Y_, [&](double part, bool isFresh) {
             if (stop().stop_requested()) return false;
-            if (isFresh ? !startFresh(part * h_) : !guessImpulses(part)) return false;
+            if (isFresh && !startFresh(part * h_)) return false;
+            guessImpulses(part * h_);
             return newton(part * h_) == Outcome::converged && nearness_ <= far;
         });
         if (stop().stop_requested()) return Outcome::stopped;
@@ -183,17 +180,17 @@ private:
         return Outcome::lost;
     }
 
-    /// The multipliers of the shorter step, for one of another length.
-    bool guessImpulses(double part) {
-        if (solvedPart_ > 0) impulses_ *= part / solvedPart_;
-        solvedPart_ = part;
-        return true;
+    /// The impulses of the multipliers at the start, of a step of this length.
+    void guessImpulses(double h) {
+        const int n = constraints();
+        for (int j = 0; j < table_.unknowns(); ++j)
+            impulses_.segment(j * n, n) = h * weight_[static_cast<std::size_t>(j)] * multipliers_;
     }
 
     bool startFresh(double h) {
-        const int d = dimension(), m = table_.unknowns(), n = constraints();
+        const int d = dimension(), m = table_.unknowns();
         const auto& L = mechanism_.mechanics();
-        velocity_ = Vector::Zero(d);
+        velocity_.setZero();
         if (!L.velocity(L.model.get(), start_, z_.data(), p0_.data(), velocity_.data())) return false;
         ++report_.cost.evaluations;
         ++report_.cost.linearSolves;
@@ -207,18 +204,27 @@ private:
                 Y += fit_(a, j) * (t * velocity_ + t * t / 2 * acceleration_);
             }
         }
-        for (int j = 0; j < m; ++j)
-            impulses_.segment(j * n, n) = h * weight_[static_cast<std::size_t>(j)] * multipliers_;
-        solvedPart_ = h / h_;
+        guessImpulses(h);
         return true;
     }
 
-    /// q(e_j) into the front of motion_.
-    void placeAt(int j) {
+    /// q(e_j) into the front of `node`.
+    void placeAt(int j, Vector& node) const {
         const int d = dimension();
-        motion_.head(d) = z_.head(d);
+        node.head(d) = z_.head(d);
         for (int a = 0; a < table_.unknowns(); ++a)
-            motion_.head(d) += atConstraints_(j, a) * Y_.segment(a * d, d);
+            node.head(d) += atConstraints_(j, a) * Y_.segment(a * d, d);
+    }
+    /// (q, v) at node i of the rule.
+    void curveAt(int i, double h, Vector& node) const {
+        const int d = dimension();
+        auto q = node.head(d), v = node.tail(d);
+        q = z_.head(d);
+        v.setZero();
+        for (int a = 0; a < table_.unknowns(); ++a) {
+            q += table_.value(i, a) * Y_.segment(a * d, d);
+            v += table_.derivative(i, a) / h * Y_.segment(a * d, d);
+        }
     }
 
     /// G by z = (q_0, Y), its derivatives by Y, and the constraints, at the present unknowns.
@@ -238,13 +244,7 @@ private:
         const Force& force = *mechanism_.force();
         const int d = dimension(), m = table_.unknowns();
         for (int i = 0; i < table_.nodes(); ++i) {
-            auto q = motion_.head(d), v = motion_.tail(d);
-            q = z_.head(d);
-            v.setZero();
-            for (int a = 0; a < m; ++a) {
-                q += table_.value(i, a) * Y_.segment(a * d, d);
-                v += table_.derivative(i, a) / h * Y_.segment(a * d, d);
-            }
+            curveAt(i, h, motion_);
             force.first(force.model.get(), start_ + table_.node(i) * h, motion_.data(), motion_.data() + d,
                         forces_.data(), byState_.data());
             const double weight = h * table_.weight(i);
@@ -264,7 +264,7 @@ private:
         const int d = dimension(), m = table_.unknowns(), n = constraints();
         for (int j = 0; j <= m; ++j) {
             const double t = start_ + place_[static_cast<std::size_t>(j)] * h;
-            placeAt(j);
+            placeAt(j, motion_);
             Rows& byPlace = byPlace_[static_cast<std::size_t>(j)];
             g.first(g.model.get(), t, motion_.data(), value_.data(), byPlace.data(), byTime_.data());
             if (j > 0) residual_.segment(m * d + (j - 1) * n, n) = value_;
@@ -406,41 +406,37 @@ private:
         }
         for (int k = 0; k < d; ++k)
             p1_(k) = addExactly(p0_(k), gradient_(k) + forces_(k) + carryP_(k), carryP_(k));
-        work_ = workOfForces() + workOfConstraints();
         return q1_.allFinite() && p1_.allFinite();
     }
 
-    /// h sum_i b_i F . v on the curve.
-    double workOfForces() {
+    /// h sum_i b_i F . v on the curve of the last step.
+    double workOfForces() const {
         if (!mechanism_.force()) return 0;
         const Force& force = *mechanism_.force();
-        const int d = dimension(), m = table_.unknowns();
+        const int d = dimension();
+        Vector node(2 * d), F(d);
         double sum = 0;
         for (int i = 0; i < table_.nodes(); ++i) {
-            auto q = motion_.head(d), v = motion_.tail(d);
-            q = z_.head(d);
-            v.setZero();
-            for (int a = 0; a < m; ++a) {
-                q += table_.value(i, a) * Y_.segment(a * d, d);
-                v += table_.derivative(i, a) / h_ * Y_.segment(a * d, d);
-            }
-            force.value(force.model.get(), start_ + table_.node(i) * h_, motion_.data(), motion_.data() + d,
-                        forces_.data());
-            sum += h_ * table_.weight(i) * forces_.dot(v);
+            curveAt(i, h_, node);
+            force.value(force.model.get(), start_ + table_.node(i) * h_, node.data(), node.data() + d,
+                        F.data());
+            sum += h_ * table_.weight(i) * F.dot(node.tail(d));
         }
         return sum;
     }
     /// -sum_{j<m} Lambda_j . g_t - kappa . g_t at the end: what constraints that move with time do.
-    double workOfConstraints() {
+    double workOfConstraints() const {
         if (constraints() == 0 || !mechanism_.constraint()->isTimeDependent) return 0;
         const Constraint& g = *mechanism_.constraint();
-        const int m = table_.unknowns(), n = constraints();
-        double sum = -kappa_.dot(byTime_);
-        for (int j = 0; j < m; ++j) {
-            placeAt(j);
-            g.first(g.model.get(), start_ + place_[static_cast<std::size_t>(j)] * h_, motion_.data(),
-                    value_.data(), byPlace_.back().data(), byTime_.data());
-            sum -= impulses_.segment(j * n, n).dot(byTime_);
+        const int d = dimension(), m = table_.unknowns(), n = constraints();
+        Vector q(d), value(n), byTime(n);
+        Rows byPlace(n, d);
+        double sum = 0;
+        for (int j = 0; j <= m; ++j) {
+            placeAt(j, q);
+            g.first(g.model.get(), start_ + place_[static_cast<std::size_t>(j)] * h_, q.data(), value.data(),
+                    byPlace.data(), byTime.data());
+            sum -= byTime.dot(j < m ? Vector(impulses_.segment(j * n, n)) : kappa_);
         }
         return sum;
     }
@@ -463,8 +459,7 @@ private:
     Vector forces_, motion_, value_, byTime_;  ///< motion_: (q, v) of one node
     Rows byState_, jetHessian_;
     std::vector<Rows> byPlace_;  ///< g_q at e_j
-    double start_ = 0, nearness_ = 0, work_ = 0;
-    double solvedPart_ = 0;  ///< of the step, that impulses_ belong to
+    double start_ = 0, nearness_ = 0;
     StepReport report_;
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/exact_sum.hpp"
 #include "engine/family/energy_momentum/density.hpp"
 #include "engine/family/energy_momentum/element_step.hpp"
 
@@ -17,13 +18,6 @@ namespace extremal {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-/// a + b; `rest` has what earlier sums have lost, and gets what this one loses (Knuth's exact sum).
-double addExactly(double a, double b, double& rest) {
-    const double whole = b + rest, sum = a + whole, back = sum - a;
-    rest = (a - (sum - back)) + (whole - back);
-    return sum;
-}
 
 class MovingTime final : public Integrator {
 public:
@@ -241,10 +235,10 @@ private:
         const double before = mechanics_.energy(model, state.t, q, p);
         double* const rest = state.memory.data() + lost;
         for (int k = 0; k < d; ++k) {
-            q[k] = addExactly(q[k], element_.positionChange(k), rest[k]);
-            p[k] = addExactly(p[k], element_.momentumChange(k), rest[d + k]);
+            q[k] = addExactly(q[k], element_.positionChange(k) + rest[k], rest[k]);
+            p[k] = addExactly(p[k], element_.momentumChange(k) + rest[d + k], rest[d + k]);
         }
-        state.t = addExactly(state.t, h, rest[2 * d]);
+        state.t = addExactly(state.t, h + rest[2 * d], rest[2 * d]);
         const double after = mechanics_.energy(model, state.t, q, p);
         energy_ = element_.discreteEnergy();
         density_ = actionErrorDensity((before + after) / 2, energy_, h, options_.order);

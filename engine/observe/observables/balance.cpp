@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 
+#include "engine/core/exact_sum.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
 #include "engine/observe/catalog.hpp"
@@ -45,11 +46,8 @@ ObservableEntry balance() {
             for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
                 const double step =
                     place ? nodes.quantities(i)[*place] : std::numeric_limits<double>::quiet_NaN();
-                if (!place || nodes.node(i) > 0) {
-                    const double add = step + sum->lost, next = sum->value + add;
-                    sum->lost = add - (next - sum->value);
-                    sum->value = next;
-                }
+                if (!place || nodes.node(i) > 0)
+                    sum->value = addExactly(sum->value, step + sum->lost, sum->lost);
                 values[0] = sum->value;
                 values[1] = energy(nodes.t(i), nodes.x(i)) - start - sum->value;
             }
