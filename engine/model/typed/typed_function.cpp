@@ -7,6 +7,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
+#include "engine/model/typed/tape_registers.hpp"
 
 namespace extremal::typed {
 namespace {
@@ -60,22 +61,13 @@ TypedFunction::TypedFunction(const std::string& text, const std::string& pointer
 
 void TypedFunction::evaluate(const double* y, double* value, double* gradient, double* hessian) const {
     const Tape& tape = gradient || hessian ? all_ : value_;
-    constexpr std::size_t most = 192;
-    double small[most];
-    std::vector<double> large;
-    double* registers = small;
-    if (tape.registers() > most) {
-        large.resize(tape.registers());
-        registers = large.data();
-    }
-    std::copy_n(y, variables_, registers);
-    tape.run(registers);
+    const TapeRegisters r(tape, [&](double* front) { std::copy_n(y, variables_, front); });
     const auto d = static_cast<std::size_t>(variables_);
-    *value = tape.output(0, registers);
+    *value = r[0];
     if (gradient)
-        for (std::size_t i = 0; i < d; ++i) gradient[i] = tape.output(1 + i, registers);
+        for (std::size_t i = 0; i < d; ++i) gradient[i] = r[1 + i];
     if (hessian)
-        for (std::size_t i = 0; i < d * (d + 1) / 2; ++i) hessian[i] = tape.output(1 + d + i, registers);
+        for (std::size_t i = 0; i < d * (d + 1) / 2; ++i) hessian[i] = r[1 + d + i];
 }
 
 }  // namespace extremal::typed

@@ -18,6 +18,7 @@
 #include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape_registers.hpp"
 #include "engine/model/typed/tape_run.hpp"
 
 namespace extremal::typed {
@@ -41,28 +42,16 @@ struct Model {
 
 const Model& self(const void* p) { return *static_cast<const Model*>(p); }
 
-/// Registers for one evaluation: on the stack, or, for long formulas, one array per thread.
-class Registers {
+/// One evaluation of a tape at (t, q, v).
+class Registers : public TapeRegisters {
 public:
     Registers(const Model& m, const Tape& tape, double t, const double* q, const double* v)
-        : tape_(tape), at_(tape.registers() <= std::size(small_) ? small_ : large(tape.registers())) {
-        const auto d = static_cast<std::size_t>(m.d);
-        std::memcpy(at_, q, d * sizeof(double));
-        std::memcpy(at_ + d, v, d * sizeof(double));
-        at_[2 * d] = t;
-        tape.run(at_);
-    }
-    double operator[](std::size_t output) const { return tape_.output(output, at_); }
-
-private:
-    static double* large(std::size_t size) {
-        thread_local std::vector<double> registers;
-        if (registers.size() < size) registers.resize(size);
-        return registers.data();
-    }
-    const Tape& tape_;
-    double small_[192];
-    double* at_;
+        : TapeRegisters(tape, [&](double* r) {
+              const auto d = static_cast<std::size_t>(m.d);
+              std::memcpy(r, q, d * sizeof(double));
+              std::memcpy(r + d, v, d * sizeof(double));
+              r[2 * d] = t;
+          }) {}
 };
 
 void jet(const void* p, const double& t, const double* q, const double* v, double* value, double* gradient,

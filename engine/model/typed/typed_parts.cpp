@@ -12,6 +12,7 @@
 #include "engine/core/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape_registers.hpp"
 
 namespace extremal::typed {
 namespace {
@@ -51,30 +52,19 @@ private:
     Graph graph_;
 };
 
-/// Registers of one evaluation: on the stack, or for long formulas an array of the thread.
-class Run {
+/// One evaluation of a tape at (q, t, v); v may be null.
+class Run : public TapeRegisters {
 public:
-    Run(const Tape& tape, int d, double t, const double* q, const double* v) : tape_(tape) {
-        thread_local std::vector<double> large;
-        if (tape.registers() > std::size(small_)) {
-            if (large.size() < tape.registers()) large.resize(tape.registers());
-            r_ = large.data();
-        }
-        std::copy_n(q, d, r_);
-        r_[d] = t;
-        if (v)
-            std::copy_n(v, d, r_ + d + 1);
-        else
-            std::fill_n(r_ + d + 1, d, 0.0);
-        r_[2 * d + 1] = 1;
-        tape.run(r_);
-    }
-    double operator[](std::size_t output) const { return tape_.output(output, r_); }
-
-private:
-    const Tape& tape_;
-    double small_[192];
-    double* r_ = small_;
+    Run(const Tape& tape, int d, double t, const double* q, const double* v)
+        : TapeRegisters(tape, [&](double* r) {
+              std::copy_n(q, d, r);
+              r[d] = t;
+              if (v)
+                  std::copy_n(v, d, r + d + 1);
+              else
+                  std::fill_n(r + d + 1, d, 0.0);
+              r[2 * d + 1] = 1;
+          }) {}
 };
 
 /// differentiate() with what is wrong as a problem of the scene.

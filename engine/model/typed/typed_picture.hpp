@@ -31,7 +31,7 @@ struct Picture {
     int planeX = -1, planeY = -1;
 };
 
-/// `constraint`: null where there is none.
+/// `constraint`: null for a Lagrangian alone.
 Picture pictureOf(const Formula& formula, const Constraint* constraint = nullptr);
 
 }  // namespace extremal::typed
