@@ -10,7 +10,7 @@
 #include "app/interface.hpp"
 #include "app/option_table.hpp"
 #include "app/report.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal::app {
 namespace {

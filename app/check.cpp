@@ -6,11 +6,11 @@
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "engine/core/switching.hpp"
-#include "engine/family/kept.hpp"
+#include "engine/family/kept_momenta.hpp"
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typeset.hpp"
-#include "engine/scene/json.hpp"
-#include "engine/scene/topics.hpp"
+#include "engine/scene/outlook/topics.hpp"
+#include "engine/scene/read/json.hpp"
 #include "engine/symmetry/symmetry.hpp"
 
 namespace extremal::app {

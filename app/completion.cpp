@@ -9,8 +9,8 @@
 
 #include "app/interface.hpp"
 #include "app/report.hpp"
-#include "engine/core/text.hpp"
-#include "engine/study/catalogues.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/study/atlas/catalogues.hpp"
 #include "ui/text/handbook_pages.hpp"
 
 namespace extremal::app {

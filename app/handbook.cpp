@@ -2,8 +2,8 @@
 /// `extremal handbook`: a page of the handbook, or a section of it, as Markdown.
 #include "app/report.hpp"
 #include "app/verbs.hpp"
-#include "engine/core/text.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/scene/read/json.hpp"
 #include "ui/text/handbook_pages.hpp"
 
 namespace extremal::app {

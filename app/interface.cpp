@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/option_table.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal::app {
 namespace {

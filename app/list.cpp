@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/report.hpp"
 #include "app/verbs.hpp"
-#include "engine/core/text.hpp"
-#include "engine/scene/json.hpp"
-#include "engine/study/catalogues.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/study/atlas/catalogues.hpp"
 
 namespace extremal::app {
 namespace {

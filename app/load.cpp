@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "app/report.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/run/load_scene.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "ui/workspace/own_schemes.hpp"
 
 namespace extremal::app {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/verbs.hpp"
-#include "engine/run/replacing.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/run/files/replacing.hpp"
+#include "engine/scene/write/codec.hpp"
 
 namespace extremal::app {
 

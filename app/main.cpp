@@ -14,8 +14,8 @@
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/model/wave/wisdom.hpp"
-#include "engine/run/export.hpp"
+#include "engine/model/wave/basis/wisdom.hpp"
+#include "engine/run/files/export.hpp"
 
 namespace {
 

@@ -5,11 +5,11 @@
 #include "app/load.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/passport/passport.hpp"
 #include "engine/passport/program.hpp"
-#include "engine/run/export.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/run/files/export.hpp"
+#include "engine/scene/read/json.hpp"
 
 namespace extremal::app {
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "app/verbs.hpp"
-#include "engine/core/markup.hpp"
-#include "engine/core/text.hpp"
-#include "engine/scene/topics.hpp"
+#include "engine/core/text/markup.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/scene/outlook/topics.hpp"
 
 namespace extremal::app {
 

@@ -10,7 +10,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/value.hpp"
-#include "engine/run/export.hpp"
+#include "engine/run/files/export.hpp"
 
 namespace extremal::app {
 

@@ -6,11 +6,11 @@
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "app/watch_run.hpp"
-#include "engine/core/text.hpp"
-#include "engine/run/event_files.hpp"
-#include "engine/run/export.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/run/files/event_files.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/run/missing.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 
 namespace extremal::app {
 namespace {

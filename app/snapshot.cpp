@@ -9,8 +9,8 @@
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "app/watch_run.hpp"
-#include "engine/core/text.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/scene/read/json.hpp"
 #include "ui/pictures/snapshot.hpp"
 
 namespace extremal::app {

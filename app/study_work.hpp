@@ -11,7 +11,7 @@
 #include "app/report.hpp"
 #include "app/watch_run.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/run/export.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/study/study_log.hpp"
 
 namespace extremal::app {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/run/checkpoints.hpp"
+#include "engine/run/march/checkpoints.hpp"
 #include "engine/study/request.hpp"
 
 namespace extremal::app {

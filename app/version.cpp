@@ -8,7 +8,7 @@
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "commit.hpp"
-#include "engine/core/instruction_set.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/libraries.hpp"
 #include "ui/stage/surface.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "app/progress.hpp"
 #include "app/report.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/missing.hpp"
 

@@ -9,10 +9,10 @@
 
 #include "app/report.hpp"
 #include "app/verbs.hpp"
-#include "engine/core/text.hpp"
-#include "engine/scene/json.hpp"
-#include "engine/model/wave/grid.hpp"
-#include "engine/model/wave/wisdom.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/model/wave/basis/grid.hpp"
+#include "engine/model/wave/basis/wisdom.hpp"
+#include "engine/scene/read/json.hpp"
 
 namespace extremal::app {
 namespace {

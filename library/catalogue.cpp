@@ -2,8 +2,8 @@
 #include "extremal/catalogue.hpp"
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
-#include "engine/study/catalogues.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/study/atlas/catalogues.hpp"
 
 namespace extremal::api {
 

@@ -9,7 +9,7 @@
 
 #include "engine/figure/figure.hpp"
 #include "engine/run/comparison.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "extremal/extremal.hpp"
 
 namespace extremal::api {

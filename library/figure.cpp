@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "extremal/figure.hpp"
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/figure/image/svg.hpp"
 #include "engine/figure/sample.hpp"
-#include "engine/figure/svg.hpp"
 #include "engine/view/catalog.hpp"
 #include "library/data.hpp"
 

@@ -2,8 +2,8 @@
 #include "extremal/scene.hpp"
 
 #include "engine/run/load_scene.hpp"
-#include "engine/scene/json.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/read/json.hpp"
 #include "library/data.hpp"
 
 namespace extremal::api {

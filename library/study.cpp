@@ -9,7 +9,7 @@
 
 #include "engine/figure/study_figure.hpp"
 #include "engine/study/request.hpp"
-#include "engine/study/stability_study.hpp"
+#include "engine/study/stability/stability_study.hpp"
 #include "engine/study/sweep_log.hpp"
 #include "library/data.hpp"
 

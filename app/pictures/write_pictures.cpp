@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "ui/pictures/card_picture.hpp"
 
 namespace {

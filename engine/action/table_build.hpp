@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/action/table.hpp"
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/work.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What the baselines of rigid bodies share: the step, the state, and dense output.
 ///
-/// They see a body through its inertia and the force of its potential (model/body.hpp). A step moves the
+/// They see a body through its inertia and the force of its potential (model/body/body.hpp). A step moves the
 /// attitude q, the momentum in the body and, on SE(3), position and linear momentum; what follows from them
 /// is filled in afterwards. Dense output is the cubic Hermite interpolant of the state, its attitude brought
 /// back to length 1. Steps are written once, generic in the number: over dual numbers a step is its own

@@ -5,7 +5,7 @@
 
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/family/wave/wave.hpp"
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "engine/core/dense.hpp"
-#include "engine/core/expression.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/expression.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 #include "engine/integrator/stability.hpp"
 #include "engine/space/formulas.hpp"

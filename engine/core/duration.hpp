@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal {
 

@@ -19,7 +19,7 @@ struct Problem {
     std::string origin =
         {};             ///< the pointer of the override (--set) it comes from; empty: the document itself
     Value remedy = {};  ///< a value for the pointer that resolves the problem; null: none
-    /// What the handbook explains it under (scene/topics.hpp); empty: what its pointer says.
+    /// What the handbook explains it under (scene/outlook/topics.hpp); empty: what its pointer says.
     std::string topic = {};
     bool operator==(const Problem&) const = default;
 };

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/archive.hpp"
+#include "engine/core/text/archive.hpp"
 
 namespace extremal {
 

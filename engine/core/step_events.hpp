@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/core/archive.hpp"
 #include "engine/core/outcome.hpp"
+#include "engine/core/text/archive.hpp"
 
 namespace extremal {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/text/expression.hpp"
 
 namespace extremal {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A JSON-like tree that preserves the order of its keys, shared by scene files, descriptors and
 /// forms. It is a value: comparable, copyable, cheap to include. Reading and writing text is in
-/// scene/json.hpp.
+/// scene/read/json.hpp.
 #pragma once
 
 #include <cstddef>

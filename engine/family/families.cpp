@@ -7,14 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/core/work.hpp"
-#include "engine/family/rule_choices.hpp"
 #include "engine/family/frequency.hpp"
-#include "engine/family/scheme.hpp"
-#include "engine/family/table_of.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/family/parts/described_on_system.hpp"
 #include "engine/family/parts/nodes.hpp"
@@ -23,6 +20,9 @@
 #include "engine/family/parts/tables.hpp"
 #include "engine/family/parts/tensor_rules.hpp"
 #include "engine/family/parts/variant.hpp"
+#include "engine/family/rule_choices.hpp"
+#include "engine/family/scheme.hpp"
+#include "engine/family/table_of.hpp"
 #include "engine/quadrature/tensor.hpp"
 
 namespace extremal {

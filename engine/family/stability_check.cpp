@@ -9,7 +9,7 @@
 
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/parts/tables.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/integrator/stability.hpp"
 

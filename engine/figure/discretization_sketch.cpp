@@ -6,14 +6,14 @@
 #include <limits>
 #include <utility>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"
+#include "engine/figure/kkt_axes.hpp"
 #include "engine/figure/step_functions.hpp"
 #include "engine/quadrature/tensor.hpp"
-#include "engine/figure/kkt_axes.hpp"
 #include "engine/run/kkt_pattern.hpp"
-#include "engine/scene/scheme_stability.hpp"
+#include "engine/scene/outlook/scheme_stability.hpp"
 #include "engine/space/typed.hpp"
 
 namespace extremal {

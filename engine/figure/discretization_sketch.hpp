@@ -11,7 +11,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/figure/figure.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 
 namespace extremal {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/text/expression.hpp"
 #include "engine/figure/range.hpp"
 
 namespace extremal {

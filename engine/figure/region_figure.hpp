@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/figure/figure.hpp"
-#include "engine/study/linear_study.hpp"
+#include "engine/study/stability/linear_study.hpp"
 
 namespace extremal {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The motions from the starts of a view (run/start_sets.hpp), coloured by their Lyapunov exponents.
+/// The motions from the starts of a view (run/cases/start_sets.hpp), coloured by their Lyapunov exponents.
 #pragma once
 
 #include "engine/figure/build.hpp"

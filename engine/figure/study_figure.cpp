@@ -9,11 +9,11 @@
 #include "engine/figure/build.hpp"
 #include "engine/figure/fit_axes.hpp"
 #include "engine/figure/region_figure.hpp"
-#include "engine/run/error_floor.hpp"
+#include "engine/run/reference/error_floor.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/study/catalog.hpp"
 #include "engine/study/convergence.hpp"
-#include "engine/study/pareto.hpp"
+#include "engine/study/search/pareto.hpp"
 
 namespace extremal {
 namespace {

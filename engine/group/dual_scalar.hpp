@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "engine/core/jet.hpp"
+#include "engine/core/algebra/jet.hpp"
 
 template <class T>
 struct Eigen::NumTraits<extremal::Dual<T, 1>> : Eigen::GenericNumTraits<extremal::Dual<T, 1>> {

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/line_fit.hpp"
+#include "engine/core/algebra/line_fit.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/figure/build.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/alone.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/single_scheme.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/view/catalog.hpp"
 
 namespace extremal {

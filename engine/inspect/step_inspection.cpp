@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/figure/build.hpp"
 #include "engine/model/typed/symbolic.hpp"
@@ -18,7 +18,7 @@
 #include "engine/run/kkt_pattern.hpp"
 #include "engine/scene/view_choices.hpp"
 #include "engine/space/typed.hpp"
-#include "engine/study/linear_stability.hpp"
+#include "engine/study/stability/linear_stability.hpp"
 #include "engine/view/catalog.hpp"
 
 namespace extremal {

@@ -2,7 +2,7 @@
 #include "engine/inspect/written_scheme.hpp"
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/resolve.hpp"

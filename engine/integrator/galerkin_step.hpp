@@ -54,12 +54,12 @@
 #include <vector>
 
 #include "engine/action/table.hpp"
-#include "engine/core/archive.hpp"
 #include "engine/core/outcome.hpp"
+#include "engine/core/text/archive.hpp"
 #include "engine/integrator/force_defect.hpp"
 #include "engine/integrator/node_iteration.hpp"
-#include "engine/integrator/velocity_iteration.hpp"
 #include "engine/integrator/small_product.hpp"
+#include "engine/integrator/velocity_iteration.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/solve/correction_size.hpp"
 #include "engine/solve/newton_policy.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/exact_sum.hpp"
+#include "engine/core/algebra/exact_sum.hpp"
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/integrator/galerkin_step_solve.hpp"
 #include "engine/integrator/galerkin_step_sums.hpp"
@@ -133,7 +133,7 @@ void GalerkinStep<T, D>::resume(const T* q, const T* p) {
     carryP_.setZero();
 }
 
-/// Adds the increments to (q, p); the carries keep what is lost (core/exact_sum.hpp).
+/// Adds the increments to (q, p); the carries keep what is lost (core/algebra/exact_sum.hpp).
 template <class T, int D>
 void GalerkinStep<T, D>::add(T* q, T* p) {
     if (!isSolvedByFixedPoint_) {

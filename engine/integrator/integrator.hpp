@@ -18,10 +18,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/archive.hpp"
 #include "engine/core/clock.hpp"
 #include "engine/core/node_block.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/text/archive.hpp"
 
 namespace extremal {
 

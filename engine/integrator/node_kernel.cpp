@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/integrator/node_kernel.hpp"
 
-#include "engine/core/instruction_set.hpp"
-#include "engine/core/lanes.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/lanes.hpp"
 
 namespace extremal {
 namespace {

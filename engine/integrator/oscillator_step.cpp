@@ -6,7 +6,7 @@
 #include <complex>
 #include <limits>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/work.hpp"
 
 namespace extremal {

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#include "engine/core/instruction_set.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
 
 namespace extremal {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 
 namespace extremal {
 namespace {

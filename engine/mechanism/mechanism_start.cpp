@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/mechanism/mechanism.hpp"
 
 namespace extremal {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/action/element_kernel.hpp"
-#include "engine/core/dense.hpp"
-#include "engine/core/exact_sum.hpp"
+#include "engine/core/algebra/dense.hpp"
+#include "engine/core/algebra/exact_sum.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/quadrature/rule.hpp"

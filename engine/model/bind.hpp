@@ -16,7 +16,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/core/jet.hpp"
+#include "engine/core/algebra/jet.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/model/node_forces.hpp"
 #include "engine/model/node_lagrangian.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/core/stumpff.hpp"
+#include "engine/core/algebra/stumpff.hpp"
 
 namespace extremal {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal {

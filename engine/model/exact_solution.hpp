@@ -14,7 +14,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/core/archive.hpp"
+#include "engine/core/text/archive.hpp"
 
 namespace extremal {
 

@@ -9,10 +9,10 @@
 
 #include <array>
 
-#include "engine/core/instruction_set.hpp"
-#include "engine/core/jet.hpp"
-#include "engine/core/lanes.hpp"
-#include "engine/core/lanes_trigonometry.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/jet.hpp"
+#include "engine/core/algebra/lanes.hpp"
+#include "engine/core/algebra/lanes_trigonometry.hpp"
 
 namespace extremal {
 

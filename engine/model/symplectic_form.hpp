@@ -32,7 +32,7 @@ public:
 private:
     using Three = so3::Vector<double>;
 
-    /// mu . [zeta_a, zeta_b] at a state of a body (model/body.hpp).
+    /// mu . [zeta_a, zeta_b] at a state of a body (model/body/body.hpp).
     double bracket(const double* x, const double* a, const double* b) const {
         const auto part = [](const double* v) { return Three(v[0], v[1], v[2]); };
         const Three u = part(a), other = part(b);

@@ -27,12 +27,12 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/jet.hpp"
 #include "engine/core/catalog.hpp"
-#include "engine/core/jet.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/settings.hpp"
 #include "engine/core/state.hpp"
-#include "engine/model/body.hpp"
+#include "engine/model/body/body.hpp"
 #include "engine/model/drawing.hpp"
 #include "engine/model/exact_solution.hpp"
 #include "engine/model/mechanics.hpp"
@@ -208,7 +208,7 @@ struct ReducedModel {
     std::function<ReducedMotion(const State& initial)> make;
 };
 
-/// The linear motion that a step of a scheme is tested on (study/linear_stability.hpp).
+/// The linear motion that a step of a scheme is tested on (study/stability/linear_stability.hpp).
 enum class LinearTest {
     none,
     oscillator,  ///< q'' = -w^2 q

@@ -10,8 +10,8 @@
 #include <set>
 #include <utility>
 
-#include "engine/core/expression.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text/expression.hpp"
 #include "engine/group/so3.hpp"
 #include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"

@@ -11,7 +11,7 @@
 
 #include "engine/core/field.hpp"
 #include "engine/core/settings.hpp"
-#include "engine/model/body.hpp"
+#include "engine/model/body/body.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal {

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/archive.hpp"
+#include "engine/core/text/archive.hpp"
 
 namespace extremal {
 

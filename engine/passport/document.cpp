@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "engine/core/markup.hpp"
+#include "engine/core/text/markup.hpp"
 #include "engine/passport/formula_parts.hpp"
-#include "engine/run/replacing.hpp"
+#include "engine/run/files/replacing.hpp"
 
 namespace extremal {
 namespace {

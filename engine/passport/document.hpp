@@ -38,7 +38,7 @@ struct Document {
 enum class PageFormat { markdown, html, latex };
 
 std::string written(const Document& document, PageFormat format);
-/// The same for a file, with the mark by which it is known later (engine/run/replacing.hpp).
+/// The same for a file, with the mark by which it is known later (engine/run/files/replacing.hpp).
 std::string writtenForFile(const Document& document, PageFormat format);
 
 }  // namespace extremal

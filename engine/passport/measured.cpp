@@ -6,9 +6,9 @@
 #include <string>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
-#include "engine/scene/alone.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/scene/single_scheme.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/study/convergence.hpp"
 #include "engine/study/sweep.hpp"
 

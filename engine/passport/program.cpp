@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "engine/action/table.hpp"
-#include "engine/core/markup.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/markup.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/parts/tables.hpp"
 #include "engine/model/typed/source_code.hpp"
 #include "engine/passport/program_text.hpp"
 #include "engine/passport/scene_formula.hpp"
 #include "engine/passport/scheme_tableau.hpp"
-#include "engine/run/replacing.hpp"
+#include "engine/run/files/replacing.hpp"
 #include "engine/space/typed.hpp"
 #include "engine/tableau/tableau.hpp"
 

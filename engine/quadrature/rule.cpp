@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/legendre.hpp"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "engine/core/expression.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/expression.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/quadrature/legendre.hpp"
 
 namespace extremal {

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/parts/advice.hpp"
 #include "engine/integrator/switch_values.hpp"
-#include "engine/run/judge.hpp"
-#include "engine/scene/scheme_stability.hpp"
+#include "engine/run/march/motion_check.hpp"
+#include "engine/scene/outlook/scheme_stability.hpp"
 
 namespace extremal {
 namespace {
@@ -23,12 +23,12 @@ bool goesOn(const ResolvedScheme& scheme, const System& system, State state, dou
     try {
         const auto integrator = scheme.make(system, step, state);
         integrator->begin(state);
-        Judge judge(system, state, step);
+        MotionCheck motion(system, state, step);
         for (int i = 0; i < fewSteps; ++i) {
             if (advance(*integrator, state).outcome != Outcome::converged) return false;
-            if (!judge.isSound(state.t, state.x.data())) return false;
+            if (!motion.isSound(state.t, state.x.data())) return false;
         }
-        if (judge.hasGained()) return false;
+        if (motion.hasGained()) return false;
     } catch (const InvalidScene&) {
         return false;
     }

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/line_fit.hpp"
+#include "engine/core/algebra/line_fit.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/family/step_equations.hpp"
 #include "engine/solve/discrete_lagrangian.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "engine/run/reference.hpp"
+#include "engine/run/reference/reference.hpp"
 #include "engine/scene/own_folder.hpp"
 
 namespace extremal {

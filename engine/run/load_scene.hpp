@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 
 namespace extremal {
 

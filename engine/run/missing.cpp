@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/observe/catalog.hpp"
-#include "engine/run/error_floor.hpp"
+#include "engine/run/reference/error_floor.hpp"
 
 namespace extremal {
 namespace {

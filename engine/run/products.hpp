@@ -11,11 +11,11 @@
 
 #include "engine/core/element_clocks.hpp"
 #include "engine/run/action_defect.hpp"
-#include "engine/run/found_events.hpp"
+#include "engine/run/cases/parameter_map.hpp"
+#include "engine/run/cases/start_sets.hpp"
 #include "engine/run/kkt_pattern.hpp"
-#include "engine/run/parameter_map.hpp"
-#include "engine/run/start_sets.hpp"
-#include "engine/run/step_records.hpp"
+#include "engine/run/march/found_events.hpp"
+#include "engine/run/march/step_records.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/trajectory/frames.hpp"
 #include "engine/trajectory/trajectory.hpp"
@@ -113,7 +113,7 @@ public:
     void add(Product product) {
         if (!has(product)) all_.push_back(product);
     }
-    /// Short runs are repeated for their CPU time (run/timing.hpp).
+    /// Short runs are repeated for their CPU time (run/march/timing.hpp).
     bool isTimed = true;
 
 private:

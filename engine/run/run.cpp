@@ -10,19 +10,19 @@
 #include <thread>
 #include <vector>
 
-#include "engine/core/contained.hpp"
+#include "engine/core/library_exceptions.hpp"
 #include "engine/core/pool.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/run/cases/map_run.hpp"
+#include "engine/run/cases/starts_run.hpp"
 #include "engine/run/equations.hpp"
-#include "engine/run/export.hpp"
-#include "engine/run/map_run.hpp"
-#include "engine/run/reference.hpp"
+#include "engine/run/files/export.hpp"
+#include "engine/run/reference/reference.hpp"
 #include "engine/run/scheme_run.hpp"
-#include "engine/run/starts_run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scene/write/codec.hpp"
 
 namespace extremal {
 

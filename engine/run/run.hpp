@@ -15,8 +15,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/run/checkpoints.hpp"
 #include "engine/run/comparison.hpp"
+#include "engine/run/march/checkpoints.hpp"
 #include "engine/scene/resolve.hpp"
 
 namespace extremal {

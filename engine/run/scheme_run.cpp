@@ -7,19 +7,20 @@
 #include <optional>
 #include <utility>
 
-#include "engine/core/contained.hpp"
-#include "engine/core/line_fit.hpp"
+#include "engine/core/algebra/line_fit.hpp"
+#include "engine/core/library_exceptions.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/equations.hpp"
-#include "engine/run/error_floor.hpp"
-#include "engine/run/inside_step.hpp"
-#include "engine/run/march_grid.hpp"
-#include "engine/run/recording.hpp"
+#include "engine/run/march/inside_step.hpp"
+#include "engine/run/march/march_grid.hpp"
+#include "engine/run/march/recording.hpp"
+#include "engine/run/reference/error_floor.hpp"
+#include "engine/run/reference/open_bar.hpp"
 #include "engine/run/reuse.hpp"
-#include "engine/run/way_back.hpp"
+#include "engine/run/reversed_run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/two_positions.hpp"
+#include "engine/scene/outlook/two_positions.hpp"
 
 namespace extremal {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// One scheme of a scene, run from start to end: nodes, rows, extremes, outcome.
 ///
-/// It is a march (run/march.hpp) whose sinks grow the extremes, over every node, and record rows, frames and
-/// what is looked at inside steps.
+/// It is a march (run/march/march.hpp) whose sinks grow the extremes, over every node, and record rows,
+/// frames and what is looked at inside steps.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 #include "engine/model/system.hpp"
 #include "engine/run/comparison.hpp"
-#include "engine/run/reference.hpp"
+#include "engine/run/reference/reference.hpp"
 
 namespace extremal {
 

@@ -8,7 +8,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/mechanism/mechanism_start.hpp"
-#include "engine/scene/two_positions.hpp"
+#include "engine/scene/outlook/two_positions.hpp"
 
 namespace extremal {
 

@@ -10,7 +10,8 @@ namespace extremal {
 System makeSystem(const Scene& scene);
 
 /// The state at the start; velocities are turned into momenta, p = L_v(t, q, v), and two positions into the
-/// momentum of the exact motion between them. Schemes start from schemeStart (scene/two_positions.hpp).
+/// momentum of the exact motion between them. Schemes start from schemeStart
+/// (scene/outlook/two_positions.hpp).
 State initialState(const Scene& scene, const System& system);
 /// The same as it is typed, where constraints move it (mechanism/mechanism_start.hpp).
 State givenState(const Scene& scene, const System& system);

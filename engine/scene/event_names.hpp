@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/text/expression.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/scene.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/pointer.hpp"
+#include "engine/scene/read/pointer.hpp"
 
 namespace extremal {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <optional>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal {
 namespace {

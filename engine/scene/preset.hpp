@@ -15,7 +15,7 @@ struct Preset {
 
 const std::vector<Preset>& presets();
 const Preset* findPreset(std::string_view id);
-/// The axes of the study of extremes (study/extremes.hpp).
+/// The axes of the study of extremes (study/stability/extremes.hpp).
 const std::vector<Preset>& extremeScenes();
 
 }  // namespace extremal

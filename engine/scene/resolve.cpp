@@ -5,13 +5,13 @@
 
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/family/scheme.hpp"
 #include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/starts.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/integrator/at_switches.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/scheme_stability.hpp"
+#include "engine/scene/outlook/scheme_stability.hpp"
 
 namespace extremal {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A scene: everything that defines a comparison, as a value. Equal scenes give equal bytes.
 ///
-/// A scene is read by scene/codec.hpp, which checks it against the catalogues; a Scene in hand is valid.
-/// Editing makes a new scene; undo is the previous one.
+/// A scene is read by scene/write/codec.hpp, which checks it against the catalogues; a Scene in hand is
+/// valid. Editing makes a new scene; undo is the previous one.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/number.hpp"
+#include "engine/core/algebra/number.hpp"
 #include "engine/core/settings.hpp"
 #include "engine/core/value.hpp"
 #include "engine/view/view.hpp"

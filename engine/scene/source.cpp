@@ -4,10 +4,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "engine/core/regular_file.hpp"
-#include "engine/core/text.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/core/text/regular_file.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 
 namespace extremal {
 namespace {

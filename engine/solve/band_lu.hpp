@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "engine/core/archive.hpp"
+#include "engine/core/text/archive.hpp"
 
 namespace extremal {
 

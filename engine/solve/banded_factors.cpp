@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 
 namespace extremal {
 

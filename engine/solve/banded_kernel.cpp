@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/solve/banded_kernel.hpp"
 
-#include "engine/core/instruction_set.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
 
 namespace extremal {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/solve/newton.hpp"
 #include "engine/space/polynomial.hpp"

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/solve/newton_policy.hpp"
 

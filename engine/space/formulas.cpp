@@ -9,7 +9,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "engine/core/stumpff.hpp"
+#include "engine/core/algebra/stumpff.hpp"
 #include "engine/core/work.hpp"
 #include "engine/space/long_numbers.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Functions of tau as a user types them, with their derivatives by tau, in any precision.
 ///
-/// Each is an expression (core/expression.hpp) in tau, in the length h of the step, and in names that stand
-/// for expressions in their turn. Numbers are read from their text in the precision of the evaluation, so
-/// that 0.1 is exact in all of them; the points of tables are doubles. Derivatives by dual numbers (f, f')
+/// Each is an expression (core/text/expression.hpp) in tau, in the length h of the step, and in names that
+/// stand for expressions in their turn. Numbers are read from their text in the precision of the evaluation,
+/// so that 0.1 is exact in all of them; the points of tables are doubles. Derivatives by dual numbers (f, f')
 /// through the tree; abs' = sign and sign' = 0, also at 0, and a choice has the derivative of what is chosen.
 #pragma once
 
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/text/expression.hpp"
 
 namespace extremal {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/space/long_numbers.hpp"
 #include "engine/space/orthonormal.hpp"
 #include "engine/space/smooth_panels.hpp"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "engine/core/text.hpp"
-#include "engine/run/export.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/run/files/export.hpp"
 
 namespace extremal {
 

@@ -8,9 +8,9 @@
 
 #include "engine/core/catalog.hpp"
 #include "engine/core/value.hpp"
-#include "engine/study/extremes_study.hpp"
-#include "engine/study/linear_study.hpp"
-#include "engine/study/stability_study.hpp"
+#include "engine/study/stability/extremes_study.hpp"
+#include "engine/study/stability/linear_study.hpp"
+#include "engine/study/stability/stability_study.hpp"
 #include "engine/study/sweep.hpp"
 
 namespace extremal {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/core/outcome.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/core/value.hpp"
 
 namespace extremal {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/core/line_fit.hpp"
-#include "engine/run/error_floor.hpp"
+#include "engine/core/algebra/line_fit.hpp"
+#include "engine/run/reference/error_floor.hpp"
 
 namespace extremal {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/core/pool.hpp"
-#include "engine/study/selection.hpp"
+#include "engine/study/search/selection.hpp"
 
 namespace extremal {
 

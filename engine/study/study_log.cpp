@@ -10,13 +10,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "engine/core/fingerprint.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/regular_file.hpp"
-#include "engine/run/export.hpp"
-#include "engine/run/write_all.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/core/text/fingerprint.hpp"
+#include "engine/core/text/regular_file.hpp"
+#include "engine/run/files/export.hpp"
+#include "engine/run/files/write_all.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 
 namespace extremal {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/core/value.hpp"
-#include "engine/run/replacing.hpp"
+#include "engine/run/files/replacing.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace extremal {

@@ -8,10 +8,10 @@
 
 #include "engine/core/pool.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
-#include "engine/run/map_reference.hpp"
-#include "engine/scene/cost.hpp"
-#include "engine/study/search.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/run/reference/map_reference.hpp"
+#include "engine/scene/outlook/cost.hpp"
+#include "engine/study/search/search.hpp"
 
 namespace extremal {
 

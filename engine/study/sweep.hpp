@@ -15,11 +15,11 @@
 
 #include "engine/run/comparison.hpp"
 #include "engine/scene/resolve.hpp"
-#include "engine/study/ladder.hpp"
-#include "engine/study/metric.hpp"
-#include "engine/study/point.hpp"
 #include "engine/study/progress.hpp"
-#include "engine/study/prospect.hpp"
+#include "engine/study/search/ladder.hpp"
+#include "engine/study/search/metric.hpp"
+#include "engine/study/search/point.hpp"
+#include "engine/study/search/prospect.hpp"
 
 namespace extremal {
 

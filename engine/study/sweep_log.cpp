@@ -2,7 +2,7 @@
 #include "engine/study/sweep_log.hpp"
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/study/cells.hpp"
 #include "engine/study/study_log.hpp"
 

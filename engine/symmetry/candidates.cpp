@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/core/memo_cache.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/symmetry/candidates.hpp"
 #include "engine/symmetry/jumps.hpp"
 #include "engine/symmetry/null_space.hpp"

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 
 namespace extremal {

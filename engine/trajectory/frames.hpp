@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/archive.hpp"
+#include "engine/core/text/archive.hpp"
 
 namespace extremal {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/number.hpp"
+#include "engine/core/algebra/number.hpp"
 #include "engine/core/settings.hpp"
 
 namespace extremal {

@@ -14,7 +14,8 @@
 ///               [](const Parameters& p) { return Quartic{p["c"]}; });
 ///
 /// and in a scene "model": {"type": "quartic", "c": 2}. The Lagrangian is generic in its number S, so that
-/// gradients and Hessians follow by automatic differentiation (engine/core/jet.hpp has square, sqrt, sin,
+/// gradients and Hessians follow by automatic differentiation (engine/core/algebra/jet.hpp has square, sqrt,
+/// sin,
 /// ...).
 #pragma once
 
@@ -27,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/jet.hpp"
+#include "engine/core/algebra/jet.hpp"
 #include "extremal/api.hpp"
 
 namespace extremal::api {

@@ -11,15 +11,15 @@
 #include <QTextTable>
 #include <QXmlStreamReader>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/figure/build.hpp"
-#include "engine/figure/svg.hpp"
+#include "engine/figure/image/svg.hpp"
 #include "engine/passport/passport.hpp"
 #include "engine/passport/program.hpp"
-#include "engine/run/export.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/view/catalog.hpp"
 #include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"

@@ -9,7 +9,7 @@
 #include <QTest>
 
 #include "app/option_table.hpp"
-#include "engine/core/fingerprint.hpp"
+#include "engine/core/text/fingerprint.hpp"
 #include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"
 

@@ -11,8 +11,8 @@
 #include "engine/model/typed/typed_mechanics.hpp"
 #include "engine/passport/passport.hpp"
 #include "engine/passport/scene_formula.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"
 

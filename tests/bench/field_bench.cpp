@@ -7,10 +7,10 @@
 #include <cstring>
 #include <vector>
 
-#include "engine/core/instruction_set.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/family/family.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/bench/cpu_time.hpp"
 
 using namespace extremal;

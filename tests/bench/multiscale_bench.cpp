@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/core/instruction_set.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/family/multiscale/multiscale.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/instruction_set.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "tests/bench/cpu_time.hpp"

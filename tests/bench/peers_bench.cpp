@@ -23,9 +23,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/instruction_set.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/family/scheme.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/study/sweep.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/scheme_makers.hpp"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/wave/fourier.hpp"
+#include "engine/model/wave/basis/fourier.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "tests/bench/wave_costs.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "engine/model/system.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/bench/cpu_time.hpp"
 
 using namespace extremal;

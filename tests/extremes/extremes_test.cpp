@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/study/catalog.hpp"
 #include "tests/tools/test.hpp"
 

@@ -8,13 +8,13 @@
 #include <sstream>
 #include <thread>
 
-#include "engine/core/expression.hpp"
-#include "engine/run/reference_file.hpp"
+#include "engine/core/text/expression.hpp"
+#include "engine/run/reference/reference_file.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/fuzz/mutation.hpp"
 
 namespace extremal::fuzz {

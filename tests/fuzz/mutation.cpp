@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/text/expression.hpp"
 
 namespace extremal::fuzz {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/golden/golden_check.hpp"
 #include "tests/tools/test.hpp"

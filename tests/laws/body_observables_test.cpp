@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/laws/bodies.hpp"
 #include "tests/tools/test.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/mechanism/mechanism_start.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/wave/hamiltonian.hpp"

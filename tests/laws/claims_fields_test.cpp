@@ -7,10 +7,10 @@
 #include <map>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/laws/catalogue.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/test.hpp"

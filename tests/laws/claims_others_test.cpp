@@ -10,7 +10,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/laws/claims.hpp"
 #include "tests/tools/test.hpp"
 

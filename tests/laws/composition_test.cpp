@@ -9,7 +9,7 @@
 #include "engine/integrator/composition.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/laws/measured_order.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"

@@ -9,7 +9,7 @@
 #include <set>
 #include <stop_token>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/scene/bind.hpp"
 #include "tests/laws/catalogue.hpp"
 #include "tests/laws/laws.hpp"

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/family/table_of.hpp"
 #include "engine/family/lie/lie_step.hpp"
 #include "engine/family/multiscale/multiscale.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
+#include "engine/family/table_of.hpp"
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/solve/multipliers.hpp"

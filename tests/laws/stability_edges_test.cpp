@@ -9,10 +9,10 @@
 #include <functional>
 
 #include "engine/baseline/parts.hpp"
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/parts/tables.hpp"
-#include "engine/scene/scheme_stability.hpp"
+#include "engine/scene/outlook/scheme_stability.hpp"
 #include "engine/tableau/tableau.hpp"
 #include "tests/laws/catalogue.hpp"
 #include "tests/laws/laws.hpp"

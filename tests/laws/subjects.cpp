@@ -9,10 +9,10 @@
 #include <set>
 
 #include "engine/family/parts/references.hpp"
-#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 
 namespace extremal::laws {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/laws/catalogue.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/tangent.hpp"

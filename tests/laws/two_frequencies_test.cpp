@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/test.hpp"
 

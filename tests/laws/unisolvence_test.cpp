@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/quadrature/rule.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/test.hpp"
 

@@ -3,7 +3,7 @@
 /// time.
 #include <QTest>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"
 

@@ -7,10 +7,10 @@
 
 #include <numbers>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/model/wave/convolution.hpp"
-#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/basis/convolution.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"
 

@@ -5,11 +5,11 @@
 
 #include <numbers>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/wave/wave.hpp"
-#include "engine/model/wave/eigen.hpp"
-#include "engine/model/wave/interval.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
+#include "engine/model/wave/basis/interval.hpp"
 #include "engine/model/wave/spectrum.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/core/problem.hpp"
-#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/spectrum.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"

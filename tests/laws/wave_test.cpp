@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "engine/family/wave/pade.hpp"
-#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/spectrum.hpp"
 #include "tests/laws/allocations.hpp"
 #include "tests/laws/waves.hpp"

@@ -7,7 +7,7 @@
 
 #include "engine/family/wave/wave.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"
 

@@ -7,14 +7,14 @@
 #include <QTest>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/integrator/composition.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
-#include "engine/view/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/space/catalog.hpp"
+#include "engine/view/catalog.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::handbook_test {

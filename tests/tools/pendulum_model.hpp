@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "engine/core/jet.hpp"
+#include "engine/core/algebra/jet.hpp"
 
 namespace extremal {
 

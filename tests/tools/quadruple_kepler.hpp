@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/core/jet.hpp"
+#include "engine/core/algebra/jet.hpp"
 
 namespace extremal {
 

@@ -5,7 +5,7 @@
 #include <boost/multiprecision/float128.hpp>
 
 #include "engine/group/so3.hpp"
-#include "engine/model/body.hpp"
+#include "engine/model/body/body.hpp"
 
 namespace extremal {
 

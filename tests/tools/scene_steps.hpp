@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 
 namespace extremal::tests {
 

@@ -138,7 +138,7 @@ function(expect_other kind name pattern)
     endif()
 endfunction()
 
-# Rooms of ui, and the names in them.
+# Rooms, and the names of sources in those of ui.
 file(REMOVE_RECURSE ${SCRATCH}/room)
 foreach(file base/a.hpp base/a.cpp base/a_long_name.cpp base/b_c.hpp base/b_c.cpp base/b_c_d.cpp shell/a.hpp)
     file(WRITE ${SCRATCH}/room/ui/${file} "int a;\n")
@@ -153,6 +153,14 @@ endforeach()
 expect_other(room room "")
 file(WRITE ${SCRATCH}/room/ui/shell/a_41.hpp "int a;\n")
 expect_other(room room "^ui/shell:1: 41 files, more than 40")
+file(REMOVE ${SCRATCH}/room/ui/shell/a_41.hpp)
+foreach(number RANGE 1 40)
+    file(WRITE ${SCRATCH}/room/engine/run/a_${number}.cpp "int a;\n")
+    file(WRITE ${SCRATCH}/room/engine/run/march/a_${number}.cpp "int a;\n")
+endforeach()
+expect_other(room room "")
+file(WRITE ${SCRATCH}/room/engine/run/march/a_41.hpp "int a;\n")
+expect_other(room room "^engine/run/march:1: 41 files, more than 40")
 
 # The handbook's page, and the same with a folder left out, out of its order, too many, or on another level.
 function(expect_page name from to pattern)

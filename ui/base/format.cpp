@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/parts/steps.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/quadrature/catalog.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "engine/scene/resolve.hpp"
 
 namespace extremal {

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "engine/figure/figure.hpp"
-#include "engine/figure/palette.hpp"
+#include "engine/figure/image/palette.hpp"
 
 // The resources live in a static library: the linker keeps them only if somebody asks. Must be outside
 // namespaces.

@@ -13,8 +13,8 @@
 #include <limits>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/scene/read/json.hpp"
 #include "ui/base/combo_box.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/theme.hpp"

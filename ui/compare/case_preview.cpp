@@ -9,9 +9,9 @@
 #include <exception>
 
 #include "engine/run/run.hpp"
-#include "engine/scene/alone.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/map_grid.hpp"
+#include "engine/scene/single_scheme.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "ui/base/background.hpp"
 #include "ui/stage/stage_widget.hpp"
 #include "ui/workspace/document.hpp"

@@ -2,7 +2,7 @@
 /// Cases of maps of parameters: on the stage while the pointer is on them, and into the scene by a click.
 #include <algorithm>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "ui/base/card.hpp"
 #include "ui/compare/case_preview.hpp"
 #include "ui/compare/compare_view.hpp"

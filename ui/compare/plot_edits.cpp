@@ -18,9 +18,9 @@
 
 #include "engine/figure/figure.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/view_choices.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
 #include "ui/base/card.hpp"

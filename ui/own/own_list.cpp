@@ -9,9 +9,9 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include "engine/core/text.hpp"
-#include "engine/run/export.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/run/files/export.hpp"
+#include "engine/scene/read/json.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/notices.hpp"
 #include "ui/base/save_dialog.hpp"

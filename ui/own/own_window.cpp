@@ -15,7 +15,7 @@
 #include "engine/family/family.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "engine/scene/resolve.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"

@@ -4,7 +4,7 @@
 #include <QGridLayout>
 #include <QLabel>
 
-#include "engine/scene/topics.hpp"
+#include "engine/scene/outlook/topics.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/scrub_label.hpp"
 #include "ui/base/value_edit.hpp"

@@ -9,7 +9,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/text/expression.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/theme.hpp"

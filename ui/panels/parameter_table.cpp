@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/expression.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/expression.hpp"
+#include "engine/core/text/text.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/theme.hpp"
 #include "ui/base/value_edit.hpp"

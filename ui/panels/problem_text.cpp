@@ -7,7 +7,7 @@
 #include <QUrl>
 #include <QVariant>
 
-#include "engine/scene/topics.hpp"
+#include "engine/scene/outlook/topics.hpp"
 #include "ui/base/card.hpp"
 #include "ui/workspace/workspace.hpp"
 

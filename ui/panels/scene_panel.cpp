@@ -10,9 +10,9 @@
 
 #include "engine/model/system.hpp"
 #include "engine/scene/event_names.hpp"
-#include "engine/scene/format.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scene/write/format.hpp"
 #include "ui/base/combo_box.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/lagrangian_editor.hpp"

@@ -2,9 +2,9 @@
 #include "ui/panels/scheme_card.hpp"
 
 #include "engine/model/system.hpp"
-#include "engine/run/event_files.hpp"
+#include "engine/run/files/event_files.hpp"
+#include "engine/scene/outlook/topics.hpp"
 #include "engine/scene/resolve.hpp"
-#include "engine/scene/topics.hpp"
 
 #include <QGridLayout>
 #include <QGuiApplication>

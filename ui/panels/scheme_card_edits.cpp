@@ -8,7 +8,7 @@
 #include <QVBoxLayout>
 
 #include "engine/model/system.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "engine/scene/resolve.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/plain_tips.hpp"

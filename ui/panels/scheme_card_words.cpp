@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/topics.hpp"
+#include "engine/scene/outlook/topics.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/scrub_label.hpp"
 #include "ui/base/theme.hpp"

@@ -4,7 +4,7 @@
 #include <QApplication>
 #include <QPointer>
 
-#include "engine/core/contained.hpp"
+#include "engine/core/library_exceptions.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/resolve.hpp"

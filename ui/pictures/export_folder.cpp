@@ -7,10 +7,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "engine/core/markup.hpp"
-#include "engine/core/text.hpp"
-#include "engine/figure/svg.hpp"
-#include "engine/run/export.hpp"
+#include "engine/core/text/markup.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/figure/image/svg.hpp"
+#include "engine/run/files/export.hpp"
 #include "ui/base/format.hpp"
 #include "ui/plots/plot_renderer.hpp"
 #include "ui/text/foreign_text.hpp"

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/figure/figure.hpp"
 #include "engine/model/system.hpp"
 #include "engine/view/catalog.hpp"

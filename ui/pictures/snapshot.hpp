@@ -19,7 +19,7 @@
 #include <string>
 
 #include "engine/run/comparison.hpp"
-#include "engine/run/replacing.hpp"
+#include "engine/run/files/replacing.hpp"
 
 namespace extremal {
 

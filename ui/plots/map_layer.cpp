@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/figure/build.hpp"
-#include "engine/figure/faded_cell.hpp"
+#include "engine/figure/image/faded_cell.hpp"
 #include "ui/plots/axis_title.hpp"
 #include "ui/plots/tickers.hpp"
 #include "ui/plots/value_colour.hpp"

@@ -11,8 +11,8 @@
 
 #include <cmath>
 
-#include "engine/core/markup.hpp"
-#include "engine/run/replacing.hpp"
+#include "engine/core/text/markup.hpp"
+#include "engine/run/files/replacing.hpp"
 
 namespace extremal {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The colours of a scale of values (engine/figure/palette.hpp) for painters.
+/// The colours of a scale of values (engine/figure/image/palette.hpp) for painters.
 #pragma once
 
 #include <QColor>
 
-#include "engine/figure/palette.hpp"
+#include "engine/figure/image/palette.hpp"
 
 namespace extremal {
 

@@ -12,8 +12,8 @@
 #include <set>
 #include <string>
 
-#include "engine/scene/json.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/read/json.hpp"
 #include "ui/pictures/card_picture.hpp"
 
 namespace extremal {

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "engine/scene/lesson_steps.hpp"
+#include "engine/scene/outlook/lesson_steps.hpp"
 
 class QLabel;
 class QPushButton;

@@ -12,7 +12,7 @@
 #include <QTabBar>
 #include <QTimer>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/view_choices.hpp"

@@ -15,7 +15,7 @@
 #include <QTimer>
 #include <QUrl>
 
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/notices.hpp"
 #include "ui/base/save_dialog.hpp"

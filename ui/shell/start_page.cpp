@@ -15,8 +15,8 @@
 
 #include <algorithm>
 
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
 #include "ui/pictures/card_picture.hpp"

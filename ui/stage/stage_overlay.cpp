@@ -10,7 +10,7 @@
 #include <cmath>
 #include <variant>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "ui/base/theme.hpp"
 #include "ui/stage/stage_inset.hpp"
 #include "ui/stage/stage_player.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/scene/bind.hpp"
 #include "ui/stage/stage_inset.hpp"
 

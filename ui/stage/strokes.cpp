@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/stage/strokes.hpp"
 
-#include "engine/figure/phase_colour.hpp"
+#include "engine/figure/image/phase_colour.hpp"
 #include "ui/stage/stage_inset.hpp"
 
 #include <algorithm>

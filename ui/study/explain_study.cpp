@@ -7,7 +7,7 @@
 #include <cmath>
 #include <variant>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "ui/base/format.hpp"
 
 namespace extremal {

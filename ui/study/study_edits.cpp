@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 
 namespace extremal {
 

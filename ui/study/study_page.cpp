@@ -14,7 +14,7 @@
 
 #include "engine/core/known_value.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/figure/study_figure.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/format.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/study/catalog.hpp"
-#include "engine/study/proposal.hpp"
+#include "engine/study/search/proposal.hpp"
 #include "ui/study/study_job.hpp"
 
 class QLabel;

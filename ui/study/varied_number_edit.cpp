@@ -10,9 +10,9 @@
 #include <algorithm>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/scene/map_grid.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/combo_box.hpp"
 

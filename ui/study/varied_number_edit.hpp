@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "engine/scene/scene.hpp"
-#include "engine/study/stability.hpp"
+#include "engine/study/stability/stability.hpp"
 
 class QCheckBox;
 class QComboBox;

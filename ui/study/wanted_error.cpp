@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/seek_slider.hpp"

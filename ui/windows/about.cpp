@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/instruction_set.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/libraries.hpp"
 
 namespace extremal {

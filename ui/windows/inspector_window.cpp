@@ -12,7 +12,7 @@
 #include <algorithm>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/inspect/step_inspection.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"

@@ -8,10 +8,10 @@
 #include <QVBoxLayout>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/passport/passport.hpp"
 #include "engine/passport/program.hpp"
-#include "engine/run/export.hpp"
+#include "engine/run/files/export.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/notices.hpp"
 #include "ui/base/save_dialog.hpp"

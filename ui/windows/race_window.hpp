@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A race of the schemes of the scene: a stage for each, all with the same processor time, and the wanted
-/// error as the finish line (study/race.hpp).
+/// error as the finish line (study/search/race.hpp).
 #pragma once
 
 #include <QElapsedTimer>
@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "engine/study/race.hpp"
+#include "engine/study/search/race.hpp"
 #include "ui/base/theme.hpp"
 
 class QGridLayout;

@@ -9,7 +9,7 @@
 #include <QUuid>
 
 #include "engine/core/problem.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "ui/base/notices.hpp"
 #include "ui/workspace/workspace.hpp"
 

@@ -2,7 +2,7 @@
 #include "ui/workspace/cost_trial.hpp"
 
 #include "engine/core/problem.hpp"
-#include "engine/scene/cost.hpp"
+#include "engine/scene/outlook/cost.hpp"
 
 namespace extremal {
 namespace {

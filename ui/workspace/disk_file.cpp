@@ -5,7 +5,7 @@
 #include <QFileInfo>
 #include <QFileSystemWatcher>
 
-#include "engine/core/fingerprint.hpp"
+#include "engine/core/text/fingerprint.hpp"
 
 namespace extremal {
 

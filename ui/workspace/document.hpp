@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/core/value.hpp"
-#include "engine/scene/pointer.hpp"
+#include "engine/scene/read/pointer.hpp"
 
 namespace extremal {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/core/contained.hpp"
+#include "engine/core/library_exceptions.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/scene/bind.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/text/expression.hpp"
 
 namespace extremal {
 

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "engine/core/regular_file.hpp"
-#include "engine/run/export.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/core/text/regular_file.hpp"
+#include "engine/run/files/export.hpp"
+#include "engine/scene/read/json.hpp"
 
 namespace extremal {
 namespace {

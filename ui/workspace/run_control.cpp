@@ -10,7 +10,7 @@
 #include "engine/run/reuse.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
-#include "engine/scene/topics.hpp"
+#include "engine/scene/outlook/topics.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/notices.hpp"
 #include "ui/workspace/workspace.hpp"

@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/core/text.hpp"
-#include "engine/family/scheme.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/parts/steps.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/view/catalog.hpp"
 #include "ui/workspace/fitting.hpp"
 

@@ -15,11 +15,11 @@
 #include <memory>
 #include <utility>
 
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/outlook/topics.hpp"
 #include "engine/scene/own_folder.hpp"
-#include "engine/scene/pointer.hpp"
-#include "engine/scene/topics.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/read/pointer.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/notices.hpp"
 #include "ui/workspace/disk_file.hpp"

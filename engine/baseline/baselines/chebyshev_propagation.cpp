@@ -8,7 +8,7 @@
 #include "engine/baseline/parts.hpp"
 #include "engine/core/duration.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/core/thread_clock.hpp"
 #include "engine/family/wave/chebyshev_series.hpp"
 

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/parts.hpp"
 #include "engine/baseline/field_method.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/field/field_step.hpp"
-#include "engine/model/wave/fourier.hpp"
+#include "engine/model/wave/basis/fourier.hpp"
 
 namespace extremal::baselines {
 namespace {

@@ -22,12 +22,12 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/parts.hpp"
-#include "engine/family/parts/conditions.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_jacobian.hpp"
-#include "engine/core/text.hpp"
+#include "engine/baseline/parts.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/energy_momentum/density.hpp"
+#include "engine/family/parts/conditions.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/space/polynomial.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/asynchronous/steps.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/parts/conditions.hpp"

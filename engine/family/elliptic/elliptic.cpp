@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/elliptic.hpp"
 
 namespace extremal {

@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/energy_momentum/density.hpp"
 #include "engine/family/energy_momentum/moving_time.hpp"
 #include "engine/family/rule_choices.hpp"

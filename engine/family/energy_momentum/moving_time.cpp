@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/exact_sum.hpp"
+#include "engine/core/algebra/exact_sum.hpp"
 #include "engine/family/energy_momentum/density.hpp"
 #include "engine/family/energy_momentum/element_step.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/quadrature/tensor.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 
 namespace extremal {

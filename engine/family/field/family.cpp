@@ -24,7 +24,7 @@
 
 #include "engine/action/table.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/field/discretization.hpp"
 #include "engine/family/field/dispersion.hpp"
 #include "engine/family/field/field_step.hpp"

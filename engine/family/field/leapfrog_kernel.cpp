@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/core/instruction_set.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
 
 namespace extremal {
 namespace {

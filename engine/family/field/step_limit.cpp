@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal {
 

@@ -4,14 +4,14 @@
 
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/free_knot/free_knots.hpp"
 #include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/nodes.hpp"
 #include "engine/family/parts/scheme_identity.hpp"
 #include "engine/family/parts/starts.hpp"
 #include "engine/family/parts/steps.hpp"
-#include "engine/family/free_knot/free_knots.hpp"
 
 namespace extremal::family {
 namespace {

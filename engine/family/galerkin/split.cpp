@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "engine/action/combined_table.hpp"
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/frequency.hpp"
 #include "engine/family/galerkin/tables.hpp"
-#include "engine/family/kept.hpp"
+#include "engine/family/kept_momenta.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/ruled_terms.hpp"
 #include "engine/family/table_properties.hpp"

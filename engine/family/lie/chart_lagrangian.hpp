@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "engine/family/lie/lie_groups.hpp"
-#include "engine/model/body.hpp"
+#include "engine/model/body/body.hpp"
 #include "engine/model/mechanics.hpp"
 
 namespace extremal {

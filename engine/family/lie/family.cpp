@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/lie/lie.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/family/parts/solver_methods.hpp"
-#include "engine/family/lie/lie.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/table_properties.hpp"

@@ -33,7 +33,7 @@ struct RotationGroup {
     template <int K>
     using Chart = so3::Exponential<T, K>;
 
-    /// From and to the state of a run (model/body.hpp).
+    /// From and to the state of a run (model/body/body.hpp).
     static Pose<T> read(const T* x) {
         Pose<T> p;
         p.attitude << x[0], x[1], x[2], x[3];

@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "engine/family/lie/lie_groups.hpp"
-#include "engine/model/body.hpp"
+#include "engine/model/body/body.hpp"
 
 namespace extremal {
 

@@ -33,11 +33,11 @@
 
 #include "engine/action/chain_rule.hpp"
 #include "engine/action/table.hpp"
-#include "engine/core/archive.hpp"
 #include "engine/core/outcome.hpp"
+#include "engine/core/text/archive.hpp"
 #include "engine/family/lie/chart_lagrangian.hpp"
 #include "engine/family/lie/lie_groups.hpp"
-#include "engine/model/body.hpp"
+#include "engine/model/body/body.hpp"
 #include "engine/solve/newton_policy.hpp"
 #include "engine/solve/small_lu.hpp"
 

@@ -19,7 +19,7 @@
 #include <string>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/moving_mesh/moving_mesh.hpp"
 #include "engine/family/moving_mesh/multiplier_step.hpp"
 #include "engine/family/moving_mesh/placement.hpp"

@@ -16,8 +16,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "engine/core/archive.hpp"
 #include "engine/core/outcome.hpp"
+#include "engine/core/text/archive.hpp"
 #include "engine/family/moving_mesh/constraint.hpp"
 #include "engine/family/moving_mesh/slab_action.hpp"
 #include "engine/solve/band_lu.hpp"

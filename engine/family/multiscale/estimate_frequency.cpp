@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/family/parts/references.hpp"

@@ -5,18 +5,18 @@
 #include <string>
 #include <utility>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/multiscale/basis.hpp"
+#include "engine/family/multiscale/oscillatory.hpp"
+#include "engine/family/multiscale/product.hpp"
+#include "engine/family/multiscale/resonance.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/family/parts/scheme_identity.hpp"
 #include "engine/family/parts/solver_methods.hpp"
 #include "engine/family/parts/starts.hpp"
 #include "engine/family/parts/variant.hpp"
-#include "engine/family/multiscale/basis.hpp"
-#include "engine/family/multiscale/oscillatory.hpp"
-#include "engine/family/multiscale/product.hpp"
-#include "engine/family/multiscale/resonance.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/condensed.hpp"
 #include "engine/quadrature/catalog.hpp"

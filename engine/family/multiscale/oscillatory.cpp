@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/multiscale/oscillatory_table.hpp"
 #include "engine/quadrature/catalog.hpp"
 

@@ -8,9 +8,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal {
 namespace {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "engine/action/chain_rule.hpp"
-#include "engine/family/multiscale/oscillatory_table.hpp"
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
+#include "engine/family/multiscale/oscillatory_table.hpp"
 #include "engine/family/multiscale/product_curve.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/solve/small_lu.hpp"

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/core/jet.hpp"
+#include "engine/core/algebra/jet.hpp"
 
 namespace extremal {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/memo_cache.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
 
 namespace extremal {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/parts/advice.hpp"
 #include "engine/family/parts/conditions.hpp"

@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/wave/wave_collocation.hpp"
 #include "engine/family/wave/wave_slabs.hpp"
 #include "engine/family/wave/wave_step.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 #include "engine/solve/banded_poles.hpp"
-#include "engine/model/wave/eigen.hpp"
 
 namespace extremal {
 namespace {

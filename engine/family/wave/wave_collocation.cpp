@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/core/dense.hpp"
-#include "engine/core/gmres.hpp"
+#include "engine/core/algebra/dense.hpp"
+#include "engine/core/algebra/gmres.hpp"
 #include "engine/family/wave/wave_collocation.hpp"
 
 namespace extremal {

@@ -5,7 +5,7 @@
 
 #include "engine/family/wave/pade.hpp"
 #include "engine/family/wave/wave_step.hpp"
-#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 
 namespace extremal {
 namespace {

@@ -9,7 +9,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "engine/core/gmres.hpp"
+#include "engine/core/algebra/gmres.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/family/wave/wave_poles.hpp"
-#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 
 namespace extremal {
 namespace {

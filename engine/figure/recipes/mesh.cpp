@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/figure/build.hpp"
-#include "engine/run/step_records.hpp"
+#include "engine/run/march/step_records.hpp"
 
 namespace extremal::recipes {
 namespace {

@@ -8,7 +8,7 @@
 #include "engine/figure/build.hpp"
 #include "engine/model/parts/potential_levels.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/premise.hpp"
+#include "engine/scene/outlook/premise.hpp"
 
 namespace extremal::recipes {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/figure/build.hpp"
-#include "engine/run/step_records.hpp"
+#include "engine/run/march/step_records.hpp"
 
 namespace extremal::recipes {
 namespace {

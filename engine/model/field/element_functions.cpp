@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal {

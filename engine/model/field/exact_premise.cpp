@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/typed/typed_function.hpp"
 
 namespace extremal {

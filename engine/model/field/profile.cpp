@@ -8,9 +8,9 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/core/expression.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/expression.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/typed/typed_function.hpp"
 
 namespace extremal {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 
 namespace extremal {

@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/algebra/quiet_math.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/quiet.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/typed/typed_function.hpp"
 
 namespace extremal {

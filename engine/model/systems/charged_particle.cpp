@@ -20,10 +20,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/algebra/stumpff.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/stumpff.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/expression.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"

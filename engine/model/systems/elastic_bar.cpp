@@ -4,8 +4,8 @@
 #include <memory>
 #include <utility>
 
-#include "engine/core/expression.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text/expression.hpp"
 #include "engine/model/field/field_system.hpp"
 #include "engine/model/field/profile.hpp"
 

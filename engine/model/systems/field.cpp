@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/field/field_system.hpp"
 #include "engine/model/field/moving_field.hpp"
 #include "engine/model/field/profile.hpp"

@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "engine/group/so3.hpp"
-#include "engine/model/body_shape.hpp"
-#include "engine/model/rigid.hpp"
+#include "engine/model/body/body_shape.hpp"
+#include "engine/model/body/rigid.hpp"
 
 namespace extremal::systems {
 namespace {

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "engine/model/bind.hpp"
-#include "engine/model/jacobi_elliptic.hpp"
+#include "engine/model/body/jacobi_elliptic.hpp"
 #include "engine/model/parameters.hpp"
 #include "engine/model/system.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/model/body_shape.hpp"
-#include "engine/model/free_body_motion.hpp"
-#include "engine/model/rigid.hpp"
+#include "engine/model/body/body_shape.hpp"
+#include "engine/model/body/free_body_motion.hpp"
+#include "engine/model/body/rigid.hpp"
 #include "engine/model/typed_potential.hpp"
 
 namespace extremal::systems {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/wave_system.hpp"
-#include "engine/model/wave/eigen.hpp"
 
 namespace extremal::systems {
 namespace {

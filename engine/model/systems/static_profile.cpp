@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/boundary_system.hpp"
 #include "engine/model/static_problem.hpp"
 #include "engine/model/system.hpp"

@@ -7,7 +7,7 @@
 ///         s = 0;
 ///     floor(s), ceil(s), round(s); s = a/b of mod(a, b): the whole number n with n <= s < n + 1, of round
 ///         n - 1/2 <= s < n + 1/2;
-///     table(s; ...), spline(s; ...): the piece (core/interpolant.hpp).
+///     table(s; ...), spline(s; ...): the piece (core/algebra/interpolant.hpp).
 /// In a cell the formula goes on beyond the limits as it is inside: abs(x) as x or -x.
 /// Operators == and != differ from a constant at single points only and are left as they are.
 #pragma once
@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/interpolant.hpp"
+#include "engine/core/algebra/interpolant.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/model/typed/formula.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
 
 namespace extremal::typed {

@@ -5,7 +5,7 @@
 #include <map>
 #include <string_view>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal::typed {
 namespace {

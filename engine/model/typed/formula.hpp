@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/text/expression.hpp"
 
 namespace extremal::typed {
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/text/expression.hpp"
 
 namespace extremal::typed {
 namespace {

@@ -21,7 +21,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/core/interpolant.hpp"
+#include "engine/core/algebra/interpolant.hpp"
 
 namespace extremal::typed {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/typed/source_code.hpp"
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape_code.hpp"
 

@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/core/work.hpp"
 #include "engine/model/typed/symbolic_functions.hpp"
 

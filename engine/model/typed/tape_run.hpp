@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "engine/core/lanes.hpp"
-#include "engine/core/lanes_trigonometry.hpp"
+#include "engine/core/algebra/lanes.hpp"
+#include "engine/core/algebra/lanes_trigonometry.hpp"
 #include "engine/model/typed/graph.hpp"
 #include "engine/model/typed/tape.hpp"
 

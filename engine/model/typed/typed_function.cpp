@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape_registers.hpp"
 

@@ -11,9 +11,9 @@
 #include <memory>
 #include <utility>
 
+#include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/core/dimension.hpp"
-#include "engine/core/instruction_set.hpp"
-#include "engine/core/lanes.hpp"
 #include "engine/model/typed/branches.hpp"
 #include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/symbolic.hpp"

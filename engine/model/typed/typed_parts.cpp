@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape.hpp"
 #include "engine/model/typed/tape_registers.hpp"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal::typed {
 namespace {

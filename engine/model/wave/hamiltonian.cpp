@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
-#include "engine/model/wave/convolution.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/model/wave/basis/convolution.hpp"
 #include "engine/model/wave/split_operator.hpp"
 
 namespace extremal {

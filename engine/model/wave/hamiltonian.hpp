@@ -26,8 +26,8 @@
 #include <variant>
 #include <vector>
 
-#include "engine/model/wave/dirichlet_basis.hpp"
-#include "engine/model/wave/fourier_basis.hpp"
+#include "engine/model/wave/basis/dirichlet_basis.hpp"
+#include "engine/model/wave/basis/fourier_basis.hpp"
 #include "engine/model/wave/potential.hpp"
 #include "engine/model/wave/potential_harmonics.hpp"
 

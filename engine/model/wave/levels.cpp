@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 
 namespace extremal {
 

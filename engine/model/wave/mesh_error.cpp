@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
-#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/packet.hpp"
 
 namespace extremal {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/wave/random_field.hpp"
 
 namespace extremal::wave {

@@ -28,7 +28,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/wave/grid.hpp"
+#include "engine/model/wave/basis/grid.hpp"
 #include "engine/model/wave/typed.hpp"
 
 namespace extremal::wave {

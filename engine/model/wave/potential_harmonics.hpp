@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "engine/model/wave/fourier.hpp"
+#include "engine/model/wave/basis/fourier.hpp"
 
 namespace extremal {
 

@@ -9,7 +9,7 @@
 
 #include <functional>
 
-#include "engine/model/wave/grid.hpp"
+#include "engine/model/wave/basis/grid.hpp"
 
 namespace extremal::wave {
 

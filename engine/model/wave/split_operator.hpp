@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "engine/model/wave/fourier_basis.hpp"
+#include "engine/model/wave/basis/fourier_basis.hpp"
 
 namespace extremal::split {
 

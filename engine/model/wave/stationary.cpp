@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/core/gmres.hpp"
+#include "engine/core/algebra/gmres.hpp"
 
 namespace extremal {
 namespace {

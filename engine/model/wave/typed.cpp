@@ -6,9 +6,9 @@
 #include <memory>
 #include <optional>
 
-#include "engine/core/expression.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/expression.hpp"
+#include "engine/core/text/text.hpp"
 
 namespace extremal::wave {
 namespace {

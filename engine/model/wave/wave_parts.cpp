@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/model/parts/coefficient_sizes.hpp"
 #include "engine/model/parts/potential_levels.hpp"
 #include "engine/model/parts/premise_check.hpp"

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/core/problem.hpp"
 #include "engine/core/memo_cache.hpp"
-#include "engine/core/text.hpp"
-#include "engine/model/wave/eigen.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/measures.hpp"
 #include "engine/model/wave/packet.hpp"
 #include "engine/model/wave/spectrum.hpp"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <memory>
 
-#include "engine/core/exact_sum.hpp"
+#include "engine/core/algebra/exact_sum.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
 #include "engine/observe/catalog.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/core/known_value.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/study/catalog.hpp"
 
 namespace extremal::studies {

@@ -2,7 +2,7 @@
 /// What one step makes of the linear test equation: linear-stability.csv, linear-stability-limits.csv,
 /// linear-stability-intervals.csv, linear-stability-region.csv.
 #include "engine/core/known_value.hpp"
-#include "engine/scene/scheme_stability.hpp"
+#include "engine/scene/outlook/scheme_stability.hpp"
 #include "engine/study/catalog.hpp"
 
 namespace extremal {

@@ -4,7 +4,7 @@
 
 #include "engine/core/known_value.hpp"
 #include "engine/study/catalog.hpp"
-#include "engine/study/pareto.hpp"
+#include "engine/study/search/pareto.hpp"
 
 namespace extremal::studies {
 namespace {

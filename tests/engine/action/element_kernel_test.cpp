@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "engine/action/element_kernel.hpp"
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/model/bind.hpp"
 #include "engine/solve/discrete_lagrangian.hpp"
 #include "engine/space/polynomial.hpp"

@@ -4,9 +4,9 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::baseline_catalog_test {

@@ -7,8 +7,8 @@
 
 #include "engine/baseline/parts.hpp"
 #include "engine/baseline/typed_tableau.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/tableau/tableau.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/jacobian.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Elliptic integrals of arguments that are not numbers do not compute for seconds.
-#include "engine/core/carlson.hpp"
+#include "engine/core/algebra/carlson.hpp"
 
 #include <QTest>
 

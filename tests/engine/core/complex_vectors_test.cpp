@@ -6,7 +6,7 @@
 #include <complex>
 #include <vector>
 
-#include "engine/core/complex_vectors.hpp"
+#include "engine/core/algebra/complex_vectors.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::complex_vectors_test {

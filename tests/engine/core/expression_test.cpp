@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/expression.hpp"
+#include "engine/core/text/expression.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::expression_test {

@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "engine/core/instruction_set.hpp"
-#include "engine/core/lanes_trigonometry.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/lanes_trigonometry.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::lanes_trigonometry_test {

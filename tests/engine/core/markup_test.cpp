@@ -2,7 +2,7 @@
 /// What has a meaning in HTML and XML is escaped, once.
 #include <QTest>
 
-#include "engine/core/markup.hpp"
+#include "engine/core/text/markup.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::markup_test {

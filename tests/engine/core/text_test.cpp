@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::text_test {

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <string>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/work.hpp"
 #include "tests/tools/test.hpp"
 

@@ -17,9 +17,9 @@
 #include "engine/run/exact_actions.hpp"
 #include "engine/run/kkt_pattern.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/engine/family/field/fields.hpp"
 #include "tests/tools/test.hpp"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "engine/figure/build.hpp"
-#include "engine/figure/digest.hpp"
+#include "engine/figure/image/digest.hpp"
 #include "engine/figure/range.hpp"
 #include "engine/figure/sample.hpp"
 #include "engine/view/catalog.hpp"

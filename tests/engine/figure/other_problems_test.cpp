@@ -12,7 +12,7 @@
 #include "engine/figure/recipe.hpp"
 #include "engine/model/parts/coefficient_sizes.hpp"
 #include "engine/model/parts/potential_levels.hpp"
-#include "engine/run/judge.hpp"
+#include "engine/run/march/motion_check.hpp"
 #include "engine/run/products.hpp"
 #include "engine/symmetry/symmetry.hpp"
 #include "engine/view/catalog.hpp"
@@ -129,9 +129,9 @@ private slots:
         System system;
         system.parts.set(Tide{});
         const State start{0, 0, {3, 4}, {}};
-        QCOMPARE(Judge(system, start, 0.1).scale(), 0.0);
+        QCOMPARE(MotionCheck(system, start, 0.1).scale(), 0.0);
         system.isUnitary = true;
-        Judge judge(system, start, 0.1);
+        MotionCheck judge(system, start, 0.1);
         QCOMPARE(judge.scale(), 25.0);
         const double turned[] = {4, -3}, lost[] = {300, 400};
         QVERIFY(judge.isSound(1, turned));
@@ -144,7 +144,7 @@ private slots:
         system.energy = [](double, const double* x) { return std::log(x[0]) + x[1]; };
         const State start{0, 0, {1, 0}, {}};
         const auto soundNodes = [&] {
-            Judge judge(system, start, 0.1);
+            MotionCheck judge(system, start, 0.1);
             const State beyond{6.5, 65, {-1, 0}, {}};  // at a node that is not looked at for its own sake
             NodeBlock block(2, 1);
             block.push(beyond, {});

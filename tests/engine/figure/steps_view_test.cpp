@@ -6,12 +6,12 @@
 #include <cmath>
 #include <map>
 
-#include "engine/figure/digest.hpp"
+#include "engine/figure/image/digest.hpp"
 #include "engine/figure/sample.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/view/axes.hpp"
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/tools/test.hpp"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/figure/png.hpp"
-#include "engine/figure/svg.hpp"
+#include "engine/figure/image/png.hpp"
+#include "engine/figure/image/svg.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::svg_test {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::trend_test {

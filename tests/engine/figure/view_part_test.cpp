@@ -8,11 +8,11 @@
 #include "engine/figure/build.hpp"
 #include "engine/figure/fit_axes.hpp"
 #include "engine/figure/sample.hpp"
-#include "engine/view/catalog.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/view/axes.hpp"
+#include "engine/view/catalog.hpp"
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/tools/test.hpp"
 

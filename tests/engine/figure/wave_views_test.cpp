@@ -7,13 +7,13 @@
 #include <numbers>
 #include <tuple>
 
-#include "engine/figure/digest.hpp"
-#include "engine/figure/phase_colour.hpp"
+#include "engine/figure/image/digest.hpp"
+#include "engine/figure/image/phase_colour.hpp"
 #include "engine/figure/sample.hpp"
-#include "engine/view/catalog.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
+#include "engine/view/catalog.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::wave_views_test {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "engine/core/problem.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/preset.hpp"
 #include "engine/inspect/separation.hpp"
+#include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::separation_test {

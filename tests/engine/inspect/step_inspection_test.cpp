@@ -8,8 +8,8 @@
 
 #include "engine/inspect/step_inspection.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::step_inspection_test {

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "engine/integrator/at_switches.hpp"
-#include "engine/run/reference.hpp"
+#include "engine/run/reference/reference.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::at_switches_test {

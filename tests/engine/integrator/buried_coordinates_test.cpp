@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/scene_steps.hpp"
 #include "tests/tools/test.hpp"
 

@@ -9,7 +9,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::shared_force_test {

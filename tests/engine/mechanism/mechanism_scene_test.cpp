@@ -7,8 +7,8 @@
 #include <string>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/engine/mechanism/mechanisms.hpp"
 #include "tests/tools/test.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/group/so3.hpp"
-#include "engine/model/body_shape.hpp"
+#include "engine/model/body/body_shape.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::body_shape_test {

@@ -9,8 +9,8 @@
 #include "engine/core/problem.hpp"
 #include "engine/model/elliptic.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::elliptic_test {

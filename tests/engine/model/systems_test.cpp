@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/core/dense.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/test.hpp"
 

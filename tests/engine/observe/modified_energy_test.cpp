@@ -8,7 +8,7 @@
 #include "engine/integrator/composition.hpp"
 #include "engine/observe/modified_energy.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/test.hpp"
 

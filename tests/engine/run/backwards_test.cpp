@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/figure/figure.hpp"
-#include "engine/run/export.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::backwards_test {

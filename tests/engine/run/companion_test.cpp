@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/text.hpp"
-#include "engine/run/export.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/estimate_ratio.hpp"
 #include "tests/tools/test.hpp"
 

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/run/event_files.hpp"
-#include "engine/run/export.hpp"
+#include "engine/run/files/event_files.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::events_test {

@@ -11,8 +11,8 @@
 #include <functional>
 #include <vector>
 
-#include "engine/run/reference.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/run/reference/reference.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/quadruple_motion.hpp"
 #include "tests/tools/test.hpp"
 

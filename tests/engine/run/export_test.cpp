@@ -11,10 +11,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "engine/run/export.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::export_test {

@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "engine/observe/catalog.hpp"
-#include "engine/run/export.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::extremes_test {

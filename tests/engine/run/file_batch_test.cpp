@@ -12,8 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "engine/run/export.hpp"
-#include "engine/run/file_batch.hpp"
+#include "engine/run/files/export.hpp"
+#include "engine/run/files/file_batch.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::file_batch_test {

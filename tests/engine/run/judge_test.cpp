@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "engine/run/judge.hpp"
+#include "engine/run/march/motion_check.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::judge_test {
@@ -63,7 +63,7 @@ private slots:
         const State start{0, 0, {1, 0}};
         constexpr int nodes = 300;
         for (const std::size_t size : {1u, 7u, 50u, 64u, 300u}) {
-            Judge judge(system, start, 0.1);
+            MotionCheck judge(system, start, 0.1);
             NodeBlock block(2, size);
             long long sound = -1;
             for (int k = 1; k <= nodes && sound < 0; ++k) {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "engine/model/conservative.hpp"
-#include "engine/run/judge.hpp"
+#include "engine/run/march/motion_check.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/study/stability.hpp"
+#include "engine/scene/write/codec.hpp"
+#include "engine/study/stability/stability.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::left_domain_test {
@@ -134,7 +134,7 @@ private slots:
         const ReadScene read = readScene(motion(wall, gauss4, "[]"));
         const System& system = *read.resolved->system;
         for (const std::size_t size : {1u, 7u, 64u, 200u}) {
-            Judge judge(system, State{0, 0, {0.05, 0}}, 0.4);
+            MotionCheck judge(system, State{0, 0, {0.05, 0}}, 0.4);
             NodeBlock block(2, size);
             long long sound = -1;
             for (int k = 1; k <= 200 && sound < 0; ++k) {

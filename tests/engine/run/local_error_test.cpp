@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/estimate_ratio.hpp"
 #include "tests/tools/test.hpp"
 

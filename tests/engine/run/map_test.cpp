@@ -11,10 +11,10 @@
 #include <sstream>
 #include <stop_token>
 
-#include "engine/run/export.hpp"
-#include "engine/run/map_run.hpp"
+#include "engine/run/cases/map_run.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::map_test {

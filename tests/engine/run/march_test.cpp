@@ -7,9 +7,9 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/observe/catalog.hpp"
-#include "engine/run/march.hpp"
-#include "engine/run/shared_solution.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/run/march/march.hpp"
+#include "engine/run/reference/shared_solution.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::march_test {

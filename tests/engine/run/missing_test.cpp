@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "engine/run/export.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/run/missing.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::missing_test {

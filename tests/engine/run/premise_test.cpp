@@ -10,10 +10,10 @@
 #include <numbers>
 
 #include "engine/model/wave/hamiltonian.hpp"
-#include "engine/run/reference.hpp"
+#include "engine/run/reference/reference.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/premise.hpp"
+#include "engine/scene/outlook/premise.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::premise_test {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "engine/run/export.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::products_test {

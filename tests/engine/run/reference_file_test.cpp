@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "engine/core/problem.hpp"
-#include "engine/run/reference_file.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/run/reference/reference_file.hpp"
 #include "engine/scene/preset.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::reference_file_test {

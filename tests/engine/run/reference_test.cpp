@@ -11,8 +11,8 @@
 #include <complex>
 
 #include "engine/family/wave/chebyshev_series.hpp"
-#include "engine/run/reference.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/run/reference/reference.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::reference_test {

@@ -4,9 +4,9 @@
 
 #include "engine/run/reuse.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::reuse_test {

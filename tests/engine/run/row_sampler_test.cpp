@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "engine/run/row_sampler.hpp"
+#include "engine/run/march/row_sampler.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::row_sampler_test {

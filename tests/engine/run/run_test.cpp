@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "engine/observe/catalog.hpp"
-#include "engine/run/export.hpp"
-#include "engine/run/row_sampler.hpp"
+#include "engine/run/files/export.hpp"
+#include "engine/run/march/row_sampler.hpp"
 #include "engine/run/run.hpp"
 #include "engine/run/scheme_run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::run_test {

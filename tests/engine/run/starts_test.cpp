@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/run/files/starts_files.hpp"
 #include "engine/run/run.hpp"
-#include "engine/run/starts_files.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
 #include "engine/scene/plane_start.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::starts_test {

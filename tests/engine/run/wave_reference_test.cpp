@@ -11,9 +11,9 @@
 #include <functional>
 #include <numbers>
 
-#include "engine/model/wave/eigen.hpp"
-#include "engine/run/reference.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
+#include "engine/run/reference/reference.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::wave_reference_test {

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/text.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/scene/preset.hpp"
-#include "engine/scene/schema.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
+#include "engine/scene/write/schema.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::codec_test {

@@ -2,7 +2,7 @@
 /// What is said before a run about how long it takes.
 #include <QTest>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::forecast_test {

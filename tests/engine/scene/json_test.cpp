@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::json_test {

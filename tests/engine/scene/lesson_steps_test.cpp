@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
-#include "engine/scene/lesson_steps.hpp"
+#include "engine/scene/outlook/lesson_steps.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::lesson_steps_test {

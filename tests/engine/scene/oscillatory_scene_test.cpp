@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/outlook/topics.hpp"
 #include "engine/scene/resolve.hpp"
-#include "engine/scene/topics.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::oscillatory_scene_test {

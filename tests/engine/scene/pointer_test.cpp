@@ -2,7 +2,7 @@
 /// JSON pointers: RFC 6901, sections 3 and 4.
 #include <QTest>
 
-#include "engine/scene/pointer.hpp"
+#include "engine/scene/read/pointer.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::pointer_test {

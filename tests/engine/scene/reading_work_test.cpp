@@ -8,8 +8,8 @@
 #include <stop_token>
 #include <string>
 
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::reading_work_test {

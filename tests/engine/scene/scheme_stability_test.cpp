@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Intervals of instability: their published values, and one answer for everyone who asks.
-#include "engine/scene/scheme_stability.hpp"
+#include "engine/scene/outlook/scheme_stability.hpp"
 
 #include <QTest>
 
@@ -13,8 +13,8 @@
 #include "engine/passport/passport.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/study/linear_stability.hpp"
+#include "engine/scene/write/codec.hpp"
+#include "engine/study/stability/linear_stability.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::scheme_stability_test {

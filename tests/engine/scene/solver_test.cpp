@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/scene/codec.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::solver_test {

@@ -4,10 +4,10 @@
 #include <QTest>
 
 #include "engine/quadrature/tensor.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
-#include "engine/scene/overrides.hpp"
-#include "engine/scene/read_parts.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/read/overrides.hpp"
+#include "engine/scene/read/read_parts.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/space/catalog.hpp"
 #include "tests/tools/test.hpp"
 

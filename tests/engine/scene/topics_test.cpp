@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Every error and warning has a place in the handbook: that of its topic, else that of its part of the
 /// scene.
-#include "engine/scene/topics.hpp"
+#include "engine/scene/outlook/topics.hpp"
 
 #include <QTest>
 
 #include <algorithm>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::topics_test {

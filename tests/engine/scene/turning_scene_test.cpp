@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::turning_scene_test {

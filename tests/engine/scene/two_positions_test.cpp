@@ -5,9 +5,9 @@
 
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/outlook/two_positions.hpp"
 #include "engine/scene/resolve.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/two_positions.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::two_positions_test {

@@ -2,7 +2,7 @@
 /// What a scene has beyond its defaults is written, and reads back.
 #include <QTest>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::write_scene_test {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/table_of.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/space/catalog.hpp"
 #include "engine/space/typed.hpp"
 #include "tests/tools/scene_steps.hpp"

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/study/catalog.hpp"
-#include "engine/study/reductions.hpp"
+#include "engine/study/search/reductions.hpp"
 #include "engine/study/sweep.hpp"
 #include "engine/study/sweep_log.hpp"
 #include "tests/tools/test.hpp"

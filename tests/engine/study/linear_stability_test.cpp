@@ -7,9 +7,9 @@
 #include <functional>
 #include <numbers>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/study/catalog.hpp"
-#include "engine/study/linear_study.hpp"
+#include "engine/study/stability/linear_study.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::linear_stability_test {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/study/peaks.hpp"
+#include "engine/study/stability/peaks.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::peaks_test {

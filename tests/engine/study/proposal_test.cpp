@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "engine/scene/codec.hpp"
-#include "engine/study/proposal.hpp"
+#include "engine/scene/write/codec.hpp"
+#include "engine/study/search/proposal.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::proposal_test {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/study/race.hpp"
+#include "engine/study/search/race.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::race_test {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/scene/codec.hpp"
-#include "engine/study/search.hpp"
+#include "engine/scene/write/codec.hpp"
+#include "engine/study/search/search.hpp"
 #include "engine/study/sweep.hpp"
 #include "tests/tools/test.hpp"
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/study/catalog.hpp"
-#include "engine/study/stability_study.hpp"
+#include "engine/study/stability/stability_study.hpp"
 #include "tests/tools/pointer_of.hpp"
 #include "tests/tools/test.hpp"
 

@@ -9,12 +9,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine/run/error_floor.hpp"
+#include "engine/run/reference/error_floor.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/study/catalog.hpp"
 #include "engine/study/convergence.hpp"
-#include "engine/study/pareto.hpp"
+#include "engine/study/search/pareto.hpp"
 #include "engine/study/study_log.hpp"
 #include "engine/study/sweep_log.hpp"
 #include "tests/tools/pointer_of.hpp"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "engine/core/text.hpp"
-#include "engine/family/kept.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/family/kept_momenta.hpp"
 #include "engine/symmetry/conserved.hpp"
 #include "engine/symmetry/symmetry.hpp"
 #include "tests/laws/laws.hpp"

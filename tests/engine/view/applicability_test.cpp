@@ -5,16 +5,16 @@
 
 #include <algorithm>
 
-#include "engine/model/field/problem.hpp"
 #include "engine/figure/figure.hpp"
+#include "engine/model/field/problem.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/read/json.hpp"
 #include "engine/scene/view_choices.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/view/catalog.hpp"
 #include "tests/tools/test.hpp"
 

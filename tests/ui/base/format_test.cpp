@@ -2,7 +2,7 @@
 /// What is typed into fields of lists: separators within brackets belong to the entries.
 #include <QTest>
 
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/base/format.hpp"
 

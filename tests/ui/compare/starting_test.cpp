@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/compare/starting.hpp"

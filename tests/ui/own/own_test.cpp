@@ -14,7 +14,7 @@
 #include <algorithm>
 
 #include "engine/quadrature/tensor.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "engine/scene/resolve.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"

@@ -7,7 +7,7 @@
 #include <QTextBrowser>
 #include <QTextBlock>
 
-#include "engine/scene/topics.hpp"
+#include "engine/scene/outlook/topics.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
 #include "tests/ui/window.hpp"

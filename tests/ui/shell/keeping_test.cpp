@@ -11,8 +11,8 @@
 #include <map>
 #include <set>
 
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/view/catalog.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"

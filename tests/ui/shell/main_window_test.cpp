@@ -22,7 +22,7 @@
 
 #include "engine/core/libraries.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/scene/read/json.hpp"
 #include "engine/scene/resolve.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"

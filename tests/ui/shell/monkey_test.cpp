@@ -27,7 +27,7 @@
 #include <random>
 #include <tuple>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/base/theme.hpp"

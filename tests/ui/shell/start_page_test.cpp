@@ -9,8 +9,8 @@
 
 #include <set>
 
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/pictures/card_picture.hpp"

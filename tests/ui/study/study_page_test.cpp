@@ -12,9 +12,9 @@
 #include <QPushButton>
 #include <QTableWidget>
 
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
-#include "engine/study/proposal.hpp"
+#include "engine/scene/write/codec.hpp"
+#include "engine/study/search/proposal.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/base/notices.hpp"

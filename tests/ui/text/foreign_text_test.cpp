@@ -20,8 +20,8 @@
 #include <QToolTip>
 
 #include "engine/passport/document.hpp"
-#include "engine/run/export.hpp"
-#include "engine/scene/json.hpp"
+#include "engine/run/files/export.hpp"
+#include "engine/scene/read/json.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/base/card.hpp"

@@ -6,8 +6,8 @@
 #include <QTextDocument>
 
 #include "engine/passport/document.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/text/formula_text.hpp"
 #include "ui/text/text_view.hpp"

@@ -3,7 +3,7 @@
 #include <QTest>
 
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/workspace/result_store.hpp"
 

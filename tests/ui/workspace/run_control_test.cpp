@@ -3,8 +3,8 @@
 #include <QTest>
 
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/compare/figure_job.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/field/discretization.hpp"
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/slab_actions.hpp"

@@ -11,8 +11,8 @@
 #include "engine/mesh/levels.hpp"
 #include "engine/model/field/problem.hpp"
 #include "engine/model/system.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/tangent.hpp"
 #include "tests/tools/test.hpp"
 

@@ -12,7 +12,7 @@
 #include "engine/mesh/levels.hpp"
 #include "engine/model/membrane/problem.hpp"
 #include "engine/model/system.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::membrane_test {

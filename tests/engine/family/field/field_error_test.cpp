@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/run/reference.hpp"
+#include "engine/run/reference/reference.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/engine/family/field/fields.hpp"
 #include "tests/tools/test.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "engine/model/field/element_functions.hpp"
 #include "engine/run/run.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/engine/family/field/fields.hpp"
 #include "tests/tools/test.hpp"
 

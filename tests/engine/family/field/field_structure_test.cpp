@@ -10,7 +10,7 @@
 #include "engine/family/field/patch_form.hpp"
 #include "engine/family/parts/starts.hpp"
 #include "engine/quadrature/rule.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/engine/family/field/fields.hpp"
 #include "tests/tools/test.hpp"
 

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/scene_steps.hpp"
 #include "tests/tools/test.hpp"
 

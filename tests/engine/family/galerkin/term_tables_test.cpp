@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "engine/action/table.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/tools/scene_steps.hpp"
 #include "tests/tools/test.hpp"

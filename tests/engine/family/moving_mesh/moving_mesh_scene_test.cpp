@@ -9,10 +9,10 @@
 
 #include "engine/family/family.hpp"
 #include "engine/figure/figure.hpp"
-#include "engine/run/export.hpp"
+#include "engine/run/files/export.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::moving_mesh_scene_test {

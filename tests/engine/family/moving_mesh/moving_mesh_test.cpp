@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "engine/core/dense.hpp"
-#include "engine/core/jet.hpp"
+#include "engine/core/algebra/dense.hpp"
+#include "engine/core/algebra/jet.hpp"
 #include "engine/family/moving_mesh/constraint.hpp"
 #include "engine/family/moving_mesh/node_space.hpp"
 #include "engine/quadrature/rule.hpp"

@@ -5,7 +5,7 @@
 #include <stop_token>
 #include <string>
 
-#include "engine/scene/codec.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::stopped_wave_test {

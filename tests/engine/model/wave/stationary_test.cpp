@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "engine/core/problem.hpp"
-#include "engine/model/wave/convolution.hpp"
-#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/basis/convolution.hpp"
+#include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/packet.hpp"
 #include "engine/model/wave/stationary.hpp"
 #include "tests/tools/test.hpp"

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/scene/outlook/cost.hpp"
+
+#include "engine/core/thread_clock.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/outlook/two_positions.hpp"
+
+namespace extremal {
+double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) {
+    constexpr double budget = 3e-3;
+    constexpr int largestBlock = 1024;
+    const double start = scene.scene.start.value,
+                 end = start + timeSpan(scene.scene).length();  // as much backwards
+    const auto integrator =
+        scheme.make(*systemOf(scene, scheme), scheme.spec.step.value, initialOf(scene, scheme));
+    State state = schemeStart(scene, scheme, scheme.spec.step.value);
+    integrator->begin(state);
+    const bool isFixed = integrator->grid() == TimeGrid::fixed;
+    const Clock nodes{state.t, integrator->stepSize()};
+    // A first step meets code and memory for the first time.
+    if (State first = state; state.t < end)
+        (void)integrator->clone()->advance(first, isFixed ? nodes.at(state.node + 1) : end);
+    const double begin = threadSeconds();
+    double spent = 0;
+    // Blocks that double: reading the clock costs as much as a cheap step.
+    for (int block = 1; block <= largestBlock && state.t < end && spent < budget; block *= 2) {
+        for (int i = 0; i < block && state.t < end; ++i)
+            if (integrator->advance(state, isFixed ? nodes.at(state.node + 1) : end).outcome !=
+                Outcome::converged)
+                return 0;
+        spent = threadSeconds() - begin;
+    }
+    return state.t > start ? spent * (end - start) / (state.t - start) : 0;
+}
+
+}  // namespace extremal

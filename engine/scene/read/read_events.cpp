@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The key `events` of a scene: where expressions in the state pass zero.
+#include <algorithm>
+
+#include "engine/core/text/text.hpp"
+#include "engine/scene/event_names.hpp"
+#include "engine/scene/read/pointer.hpp"
+#include "engine/scene/read/read_parts.hpp"
+#include "engine/scene/write/format.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr std::size_t mostEvents = 50;
+
+/// The place of a word among those that a key can have; the first where it is left out.
+int wordOf(Reader& reader, const Value& object, const std::string& key, const std::string& pointer,
+           const std::vector<std::string>& words) {
+    const Value* value = object.find(key);
+    if (!value) return 0;
+    const std::string at = childPointer(pointer, key);
+    const auto text = reader.text(*value, at);
+    if (!text) return 0;
+    const auto found = std::find(words.begin(), words.end(), *text);
+    if (found != words.end()) return static_cast<int>(found - words.begin());
+    reader.unknownName(at, key, *text, words);
+    return 0;
+}
+
+}  // namespace
+
+void readEvents(Reader& reader, const Value& document, const System* system, Scene& scene) {
+    const Value* events = document.find("events");
+    if (!events || !reader.isArray(*events, "/events", "events") ||
+        !reader.hasAtMost(*events, "/events", "events", mostEntries))
+        return;
+    if (events->asArray().size() > mostEvents)
+        return reader.error("/events", "has " + std::to_string(events->asArray().size()) +
+                                           " events, the limit is " + std::to_string(mostEvents));
+    if (system && !events->asArray().empty() && (stateColumns(*system).empty() || system->independent != "t"))
+        return reader.error("/events",
+                            "need a motion of a few numbers, which " + scene.model.type + " is not",
+                            "leave them out");
+    for (std::size_t i = 0; i < events->asArray().size(); ++i) {
+        const std::string pointer = childPointer("/events", i);
+        const Value& value = events->asArray()[i];
+        const Value object = value.isString() ? Value(Value::Object{{"expression", value}}) : value;
+        if (!reader.isObject(object, pointer)) continue;
+        reader.checkKeys(object, pointer, format::event);
+        EventSpec event;
+        event.direction = static_cast<EventSpec::Direction>(
+            wordOf(reader, object, "direction", pointer, format::directions));
+        event.action =
+            static_cast<EventSpec::Action>(wordOf(reader, object, "action", pointer, format::actions));
+        if (const Value* label = object.find("label"))
+            event.label = reader.label(*label, pointer + "/label").value_or("");
+        const Value* expression = object.find("expression");
+        const std::string at = value.isString() ? pointer : pointer + "/expression";
+        if (!expression) {
+            reader.error(at, "is required: what passes zero", R"("expression": "x - 1")");
+            continue;
+        }
+        const auto text = reader.text(*expression, at);
+        if (!text || !system) continue;
+        event.expression = *text;
+        std::vector<std::string> parameters, names;
+        for (const auto& [name, number] : reader.parameters) parameters.push_back(name);
+        for (const StateName& each : stateNames(*system, parameters)) names.push_back(each.name);
+        const std::size_t errorsBefore = reader.errors.size();
+        if (const auto values = reader.function(*text, at, names)) {
+            event.values = *values;
+            const auto used = parseExpression(*text).names();
+            if (std::none_of(used.begin(), used.end(), [&](const std::string& name) {
+                    return std::find(names.begin(), names.end(), name) != names.end();
+                }))
+                reader.error(at, "has nothing of the state in it", "names are " + joinNames(names));
+        }
+        if (reader.errors.size() == errorsBefore) scene.events.push_back(std::move(event));
+    }
+}
+
+}  // namespace extremal

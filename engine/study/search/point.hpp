@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// One point of a study: a scheme of the scene with one step (or tolerance), run once for its errors and then
+/// again, without observers, for its cost.
+///
+/// cpuSeconds is the thread's CPU time of the steps alone, the median of the repeated runs; what is prepared
+/// once (tables, poles, plans) is not in it. Runs shorter than 2 ms are repeated within one measurement, and
+/// no point is timed for much longer than 2 s: slow points have fewer repetitions. Everything but the times
+/// is the same for any order and any number of threads.
+#pragma once
+
+#include <limits>
+#include <stop_token>
+#include <string>
+
+#include "engine/core/outcome.hpp"
+#include "engine/model/exact_solution.hpp"
+#include "engine/run/comparison.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/study/search/metric.hpp"
+#include "engine/study/search/reductions.hpp"
+
+namespace extremal {
+
+struct StudyPoint {
+    std::size_t scheme = 0;  ///< index in the scene
+    double step = 0;         ///< 0 for adaptive schemes
+    double tolerance = 0;    ///< 0 for those with steps
+    std::size_t row = 0;     ///< of the reference: which of the study's steps
+    Reduction reduction = {};
+};
+
+struct PointResult {
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    RunStatus status = RunStatus::waiting;
+    Outcome cause = Outcome::converged;
+    double failedAt = unknown;
+    double error = unknown;          ///< the metric; of a failed run up to its last node
+    double step = 0, tolerance = 0;  ///< where it was measured: of the point, or what a search found
+    Reduction reduction = {};
+    double unreducedWork = unknown;  ///< of a reduced scheme: what the error takes of the scheme as it is
+    /// Of a search that was given up: the evaluations that the wanted error takes, over those of the cheapest
+    /// scheme; at least so many.
+    double timesCheapest = unknown;
+    long long steps = 0;
+    Cost cost = {};
+    double cpuSeconds = unknown;        ///< median
+    double predictedSeconds = unknown;  ///< of a search: what a trial of a few steps says of the run
+    double cpuSpread = unknown;         ///< half the distance between the fastest and the slowest repetition
+    std::string reason;                 ///< of a refused point, in words; not exported
+
+    bool isDone() const { return status == RunStatus::done; }
+};
+
+/// Evaluations, or where none are counted, steps times nodes: a cost that is the same on every machine.
+double workOf(const PointResult& result, int nodes);
+/// The scheme of the scene with the reduction of a point.
+ResolvedScheme schemeOf(const ResolvedScene& scene, const StudyPoint& point);
+/// The scheme of the scene with the reduction, step or tolerance of a result.
+ResolvedScheme schemeAt(const ResolvedScene& scene, std::size_t scheme, const PointResult& result);
+
+/// Runs it. `reference`: empty where the metric needs none or there is none. `repeat`: timed runs, 0 for
+/// none. Status `partial` where it was stopped.
+PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, const Metric& metric,
+                     ExactSolution reference, int repeat, const std::stop_token& stop);
+
+}  // namespace extremal

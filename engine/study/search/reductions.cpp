@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/study/search/reductions.hpp"
+
+#include "engine/core/problem.hpp"
+
+namespace extremal {
+namespace {
+
+int wholeNumber(const Settings& settings, const char* key) {
+    const Value* value = settings.find(key);
+    return value && value->isNumber() ? settings.integer(key) : 0;
+}
+
+void set(Settings& settings, const char* key, int value) {
+    for (auto& [name, present] : settings.keys)
+        if (name == key) present = static_cast<double>(value);
+    std::erase_if(settings.expressions, [&](const Value::Member& m) { return m.first == key; });
+}
+
+}  // namespace
+
+Reduction richnessOf(const ResolvedScheme& scheme) {
+    if (!scheme.family || scheme.isComposed()) return {};
+    const Reduction has{wholeNumber(scheme.discretization.space, "degree"),
+                        wholeNumber(scheme.discretization.quadrature, "nodes")};
+    return has.degree > 0 && has.nodes > 0 ? has : Reduction{};
+}
+
+ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const ResolvedScene& scene) {
+    if (!to) return scheme;
+    SchemeSpec spec = scheme.spec;
+    spec.kind = SchemeSpec::Kind::discretization;
+    spec.named.clear();
+    spec.space = scheme.discretization.space;
+    spec.quadrature = scheme.discretization.quadrature;
+    set(spec.space, "degree", to.degree);
+    set(spec.quadrature, "nodes", to.nodes);
+    ResolvedScheme result = resolve(spec, scene.system.get());
+    if (!result.properties.refusal.empty()) throw InvalidScene("/quadrature", result.properties.refusal);
+    if (!result.properties.instability.empty()) throw InvalidScene("/space", result.properties.instability);
+    resolveSystem(result, scene.scene);
+    return result;
+}
+
+std::vector<Reduction> reductionsOf(const ResolvedScheme& scheme, const ResolvedScene& scene) {
+    std::vector<Reduction> all;
+    const Reduction has = richnessOf(scheme);
+    for (int degree = has.degree; degree >= 1; --degree)
+        for (int nodes = has.nodes - (has.degree - degree); nodes >= degree; --nodes) {
+            if (Reduction{degree, nodes} == has) continue;
+            try {
+                (void)reduced(scheme, {degree, nodes}, scene);
+                all.push_back({degree, nodes});
+            } catch (const InvalidScene&) {
+                continue;  // too few nodes for the degree
+            }
+        }
+    return all;
+}
+
+}  // namespace extremal
