@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/mechanism/dense_equations.hpp"
+
+#include <vector>
+
+#include "engine/action/element_kernel.hpp"
+
+namespace extremal {
+namespace {
+
+class DenseEquations final : public MechanismEquations {
+    using Rows = Mechanism::Rows;
+
+public:
+    DenseEquations(const Mechanism& mechanism, const MechanismCurve& curve)
+        : constraint_(mechanism.constraint()),
+          force_(mechanism.force()),
+          curve_(curve),
+          kernel_(mechanism.mechanics(), curve.table, ElementBasis::increments),
+          n_(mechanism.constraints()) {
+        const int d = curve_.d, m = curve_.unknowns();
+        lu_ = SmallLu<double>(m * (d + n_));
+        residual_ = Vector::Zero(m * (d + n_));
+        gradient_ = Vector::Zero((m + 1) * d);
+        hessian_ = Eigen::MatrixXd::Zero((m + 1) * d, (m + 1) * d);
+        forces_ = impulse_ = Vector::Zero(d);
+        byState_ = Rows::Zero(d, 2 * d);
+        byPlace_.assign(static_cast<std::size_t>(m + 1), Rows::Zero(n_, d));
+        value_ = byTime_ = Vector::Zero(n_);
+        curvature_ = Eigen::MatrixXd::Zero(d, d);
+        motion_ = Vector::Zero(2 * d);
+    }
+
+    std::unique_ptr<MechanismEquations> clone() const override {
+        return std::make_unique<DenseEquations>(*this);
+    }
+
+    /// G by z = (q_0, Y), its derivatives by Y, and the constraints.
+    bool evaluate(double t, double h, const Vector& z, const Vector& p, const Vector& impulses) override {
+        const int d = curve_.d, m = curve_.unknowns(), last = (m - 1) * d;
+        if (!kernel_.evaluate(t, h, z, DerivativeOrder::second, derivatives_)) return false;
+        gradient_ = derivatives_.gradient;
+        hessian_ = derivatives_.hessian;
+        if (force_) addForces(t, h, z);
+        if (constraint_) addConstraints(t, h, z, impulses);
+        if (!gradient_.allFinite()) return false;
+        residual_.head(last) = gradient_.segment(d, last);
+        residual_.segment(last, d) = p + (gradient_.head(d) - gradient_.tail(d));
+        impulse_ = gradient_.head(d);
+        return residual_.allFinite();
+    }
+
+    Factors factorise() override {
+        const int d = curve_.d, m = curve_.unknowns(), last = (m - 1) * d;
+        const auto& H = hessian_;
+        for (int c = 0; c < m * d; ++c) {
+            double* const column = lu_.column(c);
+            for (int r = 0; r < last; ++r) column[r] = H(d + r, d + c);
+            for (int k = 0; k < d; ++k) column[last + k] = H(k, d + c) - H(m * d + k, d + c);
+            const int a = c / d, i = c % d;
+            for (int j = 1; j <= m; ++j)
+                for (int k = 0; k < n_; ++k)
+                    column[m * d + (j - 1) * n_ + k] = curve_.atPlaces(j, a) * byPlaceAt(j)(k, i);
+        }
+        for (int j = 0; j < m; ++j)
+            for (int k = 0; k < n_; ++k) {
+                double* const column = lu_.column(m * d + j * n_ + k);
+                for (int a = 0; a < m; ++a) {
+                    const double test = (a == m - 1 ? 1 : 0) + (a == m - 1 ? -1 : 1) * curve_.atPlaces(j, a);
+                    for (int i = 0; i < d; ++i) column[a * d + i] = test * byPlaceAt(j)(k, i);
+                }
+                for (int r = 0; r < m * n_; ++r) column[m * d + r] = 0;
+            }
+        return lu_.factorise();
+    }
+    void solve(Vector& x) const override { lu_.solve(x.data()); }
+
+private:
+    Rows& byPlaceAt(int j) { return byPlace_[static_cast<std::size_t>(j)]; }
+
+    void addForces(double t, double h, const Vector& z) {
+        const Table<double>& table = curve_.table;
+        const int d = curve_.d, m = curve_.unknowns();
+        for (int i = 0; i < table.nodes(); ++i) {
+            curve_.motionAt(z, i, h, motion_);
+            force_->first(force_->model.get(), t + table.node(i) * h, motion_.data(), motion_.data() + d,
+                          forces_.data(), byState_.data());
+            const double weight = h * table.weight(i);
+            for (int a = -1; a < m; ++a) {  // -1: q_0, whose function is 1
+                const double test = weight * (a < 0 ? 1 : table.value(i, a));
+                gradient_.segment((a + 1) * d, d) += test * forces_;
+                for (int b = 0; b < m; ++b)
+                    hessian_.block((a + 1) * d, (b + 1) * d, d, d) +=
+                        test * (table.value(i, b) * byState_.leftCols(d) +
+                                table.derivative(i, b) / h * byState_.rightCols(d));
+            }
+        }
+    }
+
+    void addConstraints(double start, double h, const Vector& z, const Vector& impulses) {
+        const Constraint& g = *constraint_;
+        const int d = curve_.d, m = curve_.unknowns();
+        for (int j = 0; j <= m; ++j) {
+            const double t = start + curve_.place(j) * h;
+            curve_.placeAt(z, j, motion_);
+            Rows& byPlace = byPlaceAt(j);
+            g.first(g.model.get(), t, motion_.data(), value_.data(), byPlace.data(), byTime_.data());
+            if (j > 0) residual_.segment(m * d + (j - 1) * n_, n_) = value_;
+            if (j == m) break;
+            const auto impulse = impulses.segment(j * n_, n_);
+            forces_.noalias() = byPlace.transpose() * impulse;
+            gradient_.head(d) += forces_;
+            if (j == 0) continue;  // there the functions are 0
+            curvature_.setZero();
+            g.addCurvature(g.model.get(), t, motion_.data(), impulses.data() + j * n_, curvature_.data());
+            for (int a = -1; a < m; ++a) {
+                const double test = a < 0 ? 1 : curve_.atPlaces(j, a);
+                if (a >= 0) gradient_.segment((a + 1) * d, d) += test * forces_;
+                for (int b = 0; b < m; ++b)
+                    hessian_.block((a + 1) * d, (b + 1) * d, d, d) +=
+                        test * curve_.atPlaces(j, b) * curvature_;
+            }
+        }
+    }
+
+    std::optional<Constraint> constraint_;
+    std::optional<Force> force_;
+    MechanismCurve curve_;
+    ElementKernel<double> kernel_;
+    ElementDerivatives<double> derivatives_;
+    int n_;
+    SmallLu<double> lu_;
+    Vector gradient_;  ///< G by z
+    Eigen::MatrixXd hessian_, curvature_;
+    Vector forces_, motion_, value_, byTime_;  ///< motion_: (q, v) of one node
+    Rows byState_;
+    std::vector<Rows> byPlace_;  ///< g_q at e_j
+};
+
+}  // namespace
+
+std::unique_ptr<MechanismEquations> denseEquations(const Mechanism& mechanism, const MechanismCurve& curve) {
+    return std::make_unique<DenseEquations>(mechanism, curve);
+}
+
+}  // namespace extremal

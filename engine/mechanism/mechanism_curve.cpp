@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/mechanism/mechanism_curve.hpp"
+
+#include <string>
+
+#include "engine/core/algebra/dense.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/quadrature/rule.hpp"
+
+namespace extremal {
+
+MechanismCurve::MechanismCurve(const Table<double>& ofStep, int dimension) : table(ofStep), d(dimension) {
+    const int m = unknowns();
+    const Rule<double> nodes = lobatto<double>(m + 1);
+    places = nodes.c;
+    weights = nodes.b;
+    atPlaces = samples(places).value;
+    const Eigen::MatrixXd ends = atPlaces.bottomRows(m);
+    if (!(dense::Lu<double>(ends).pivotRatio() > 1e-10))
+        throw InvalidScene("/space",
+                           "has functions that " + std::to_string(m + 1) +
+                               " Lobatto nodes do not tell apart, where constraints hold",
+                           "polynomials");
+    endSlope = samples({1.0}).slope;
+    fit = dense::inverse<double>(ends);
+}
+
+MechanismCurve::Samples MechanismCurve::samples(const std::vector<double>& at) const {
+    using Vector = Eigen::VectorXd;
+    const auto rows = static_cast<Eigen::Index>(at.size());
+    Samples s{Eigen::MatrixXd(rows, unknowns()), Eigen::MatrixXd(rows, unknowns())};
+    std::vector<double> value(static_cast<std::size_t>(table.space.size)), slope(value.size());
+    for (Eigen::Index j = 0; j < rows; ++j) {
+        table.space.evaluate(at[static_cast<std::size_t>(j)], value, slope);
+        s.value.row(j) = Eigen::Map<const Vector>(value.data(), table.space.size).transpose() * table.change;
+        s.slope.row(j) = Eigen::Map<const Vector>(slope.data(), table.space.size).transpose() * table.change;
+    }
+    return s;
+}
+
+void MechanismCurve::placeAt(const Eigen::VectorXd& z, int j, Eigen::VectorXd& node) const {
+    node.head(d) = z.head(d);
+    for (int a = 0; a < unknowns(); ++a) node.head(d) += atPlaces(j, a) * z.segment((a + 1) * d, d);
+}
+
+void MechanismCurve::motionAt(const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const {
+    auto q = node.head(d), v = node.tail(d);
+    q = z.head(d);
+    v.setZero();
+    for (int a = 0; a < unknowns(); ++a) {
+        q += table.value(i, a) * z.segment((a + 1) * d, d);
+        v += table.derivative(i, a) / h * z.segment((a + 1) * d, d);
+    }
+}
+
+}  // namespace extremal

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The curve of a step of a mechanism, at the nodes of its two rules.
+///
+/// z = (q_0, Y_0, .., Y_{m-1}) with the functions phi_a of a table; Lobatto nodes (e_j, w_j), j = 0..m, for
+/// the constraints, and the rule (c_i, b_i) of the table:
+///     q(tau) = q_0 + sum_a phi_a(tau) Y_a,    v = q' / h.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "engine/action/table.hpp"
+
+namespace extremal {
+
+struct MechanismCurve {
+    /// Throws InvalidScene where the space has functions that the Lobatto nodes do not tell apart.
+    MechanismCurve(const Table<double>& table, int dimension);
+
+    int unknowns() const { return table.unknowns(); }
+    /// e_j and w_j.
+    double place(int j) const { return places[static_cast<std::size_t>(j)]; }
+    double weight(int j) const { return weights[static_cast<std::size_t>(j)]; }
+    /// q(e_j) into the front of `node`.
+    void placeAt(const Eigen::VectorXd& z, int j, Eigen::VectorXd& node) const;
+    /// (q, v) at node i of the rule, in a step of length h.
+    void motionAt(const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const;
+
+    /// The functions at other places: row j at tau_j, column a.
+    struct Samples {
+        Eigen::MatrixXd value, slope;
+    };
+    Samples samples(const std::vector<double>& at) const;
+
+    Table<double> table;
+    int d;
+    std::vector<double> places, weights;
+    Eigen::MatrixXd atPlaces;  ///< (j, a): phi_a(e_j)
+    Eigen::MatrixXd fit;       ///< the inverse of its rows j = 1..m
+    Eigen::MatrixXd endSlope;  ///< (0, a): phi_a'(1)
+};
+
+}  // namespace extremal

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The equations of a step of a mechanism (mechanism_step.hpp) at given unknowns, and the linear system of
+/// Newton's method:
+///     [ dR/dY  dR/dLambda ]        R: m rows for each coordinate,
+///     [ dC/dY      0      ]        C: m rows for each constraint.
+/// Unknowns and rows function by function: Y_a(i) at a d + i, Lambda_j(k) at m d + j n + k, R_a(i) and C_j(k)
+/// likewise. Further rows come behind these.
+///
+/// What is full and what is sparse in them is the choice of an implementation (dense_equations.hpp). Buffers
+/// are made in the constructor.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <utility>
+
+#include "engine/mechanism/mechanism_curve.hpp"
+#include "engine/solve/small_lu.hpp"
+
+namespace extremal {
+
+class MechanismEquations {
+public:
+    using Vector = Eigen::VectorXd;
+    using Factors = SmallLu<double>::Result;
+
+    virtual ~MechanismEquations() = default;
+    virtual std::unique_ptr<MechanismEquations> clone() const = 0;
+
+    /// Everything at z = (q_0, Y) and the impulses Lambda, in a step of length h from t that begins with the
+    /// momenta p. False where it is not finite.
+    virtual bool evaluate(double t, double h, const Vector& z, const Vector& p, const Vector& impulses) = 0;
+    /// (R, C), and A, the impulse of the step, where evaluate() was asked last.
+    const Vector& residual() const { return residual_; }
+    const Vector& impulse() const { return impulse_; }
+    /// The matrix there, and its solution in place of a right-hand side.
+    virtual Factors factorise() = 0;
+    virtual void solve(Vector& x) const = 0;
+
+protected:
+    Vector residual_, impulse_;
+};
+
+/// A pointer whose copies have an object of their own.
+template <class T>
+class OwnCopy {
+public:
+    OwnCopy() = default;
+    explicit OwnCopy(std::unique_ptr<T> object) : object_(std::move(object)) {}
+    OwnCopy(const OwnCopy& other) : object_(other.object_ ? other.object_->clone() : nullptr) {}
+    OwnCopy(OwnCopy&&) noexcept = default;
+    OwnCopy& operator=(OwnCopy other) noexcept {
+        object_ = std::move(other.object_);
+        return *this;
+    }
+    ~OwnCopy() = default;
+    explicit operator bool() const { return static_cast<bool>(object_); }
+    T* operator->() const { return object_.get(); }
+    T& operator*() const { return *object_; }
+
+private:
+    std::unique_ptr<T> object_;
+};
+
+}  // namespace extremal
