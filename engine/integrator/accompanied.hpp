@@ -34,6 +34,7 @@ public:
     void begin(State& state) override;
     StepReport advance(State& state, double until) override;
     std::span<const Quantity> quantities() const override { return quantities_; }
+    std::span<const Impact> impacts() const override { return scheme_->impacts(); }
     void measure(const State& state, double* values) const override;
 
 protected:

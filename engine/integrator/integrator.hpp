@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "engine/core/clock.hpp"
+#include "engine/core/impact.hpp"
 #include "engine/core/node_block.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text/archive.hpp"
@@ -74,6 +75,9 @@ public:
     virtual std::span<const Quantity> quantities() const { return {}; }
     /// Their values, one for each, where something reads them. `state`: as the last advance() left it.
     virtual void measure(const State& /*state*/, double* /*values*/) const {}
+
+    /// The impacts on walls in the last step, in their order.
+    virtual std::span<const Impact> impacts() const { return {}; }
 
     /// The scheme's own solution inside the last step, at t = t_before + tau * step, tau in [0, 1]; x as in
     /// State. Only valid after a converged advance(). It is whole even if a stop was requested since, and

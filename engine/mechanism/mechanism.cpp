@@ -109,6 +109,41 @@ bool Mechanism::project(double t, const double* q, double* p, Vector& v, Vector&
     return true;
 }
 
+std::optional<double> Mechanism::strike(double t, const double* q, double* p, const double* normal,
+                                        double target) {
+    constexpr int mostIterations = 30;
+    const int d = dimension(), n = constraints(), size = d + n + 1;
+    const Vector given = Eigen::Map<const Vector>(p, d);
+    const Eigen::Map<const Vector> along(normal, d);
+    Vector v(d);
+    if (!mechanics_.velocity(mechanics_.model.get(), t, q, p, v.data())) return {};
+    Vector reactions = Vector::Zero(n + 1), residual(size);
+    Eigen::MatrixXd matrix(size, size), rows(n + 1, d);
+    double last = std::numeric_limits<double>::infinity();
+    for (int iteration = 0; iteration < mostIterations; ++iteration) {
+        evaluate(t, q, v.data());
+        rows.topRows(n) = byPlace_;
+        rows.row(n) = along.transpose();
+        matrix << hessian_.bottomRightCorner(d, d), -rows.transpose(), rows,
+            Eigen::MatrixXd::Zero(n + 1, n + 1);
+        residual.head(d) = given + rows.transpose() * reactions - gradient_.tail(d);
+        residual.segment(d, n) = -(byPlace_ * v + byTime_);
+        residual(size - 1) = target - along.dot(v);
+        const Vector change = dense::solve<double>(matrix, Eigen::MatrixXd(residual)).col(0);
+        if (!change.allFinite()) return {};
+        v += change.head(d);
+        reactions += change.tail(n + 1);
+        const double step = change.head(d).cwiseAbs().maxCoeff(), scale = v.cwiseAbs().maxCoeff();
+        if (step <= 4 * epsilon * scale || (step >= last / 4 && step <= 1e-10 * scale)) {
+            const Vector impulse = rows.transpose() * reactions;
+            for (int i = 0; i < d; ++i) p[i] = given(i) + impulse(i);
+            return reactions(n);
+        }
+        last = step;
+    }
+    return {};
+}
+
 bool Mechanism::projectPlace(double t, double* q) {
     constexpr int mostIterations = 50;
     const int d = dimension(), n = constraints();

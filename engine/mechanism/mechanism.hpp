@@ -22,6 +22,7 @@
 #include "engine/model/mechanics.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
+#include "engine/model/parts/wall.hpp"
 #include "engine/solve/small_lu.hpp"
 
 namespace extremal {
@@ -34,7 +35,9 @@ public:
     /// The parts of a system with coordinates that move it.
     explicit Mechanism(const Parts& parts);
     /// Whether there is more in it than a Lagrangian.
-    static bool isOne(const Parts& parts) { return parts.find<Constraint>() || parts.find<Force>(); }
+    static bool isOne(const Parts& parts) {
+        return parts.find<Constraint>() || parts.find<Force>() || parts.find<Wall>();
+    }
 
     const Mechanics<double>& mechanics() const { return mechanics_; }
     const std::optional<Constraint>& constraint() const { return constraint_; }
@@ -49,6 +52,10 @@ public:
     bool project(double t, const double* q, double* p, Vector& v, Vector& kappa, bool knowsVelocity = false);
     /// Moves q onto the constraint; velocities for the mass matrix are 0. False where it cannot.
     bool projectPlace(double t, double* q);
+    /// Gives p an impulse J along `normal` after which normal . v = `target`, with velocities that stay on
+    /// constraints: L_v(q, v) = p + normal J + g_q^T mu, g_q v + g_t = 0. Returns J; nothing where there is
+    /// no solution.
+    std::optional<double> strike(double t, const double* q, double* p, const double* normal, double target);
     /// qdot = v and pdot = L_q + F + g_q^T lambda, of a state that need not be on the constraint.
     bool flow(double t, const double* q, const double* p, double* qdot, double* pdot);
     /// L_vv(k, k) where accelerate() was asked last.

@@ -18,6 +18,9 @@ namespace extremal {
 /// that would do; /model/constraints where constraints contradict or repeat each other there.
 void putOnConstraints(const System& system, State& state, bool movesFar);
 
+/// Throws InvalidScene: /initial/q where the state is inside a wall by more than rounding.
+void requireOutsideWalls(const System& system, const State& state);
+
 /// What the constraints at the start make of momenta, where that is worth a word ("changes p.x by 0.3: ..");
 /// empty: nothing. `given`: the momenta before.
 std::string projectionNote(const System& system, const State& given, const State& projected);

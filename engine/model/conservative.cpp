@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/conservative.hpp"
 
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
-
+#include "engine/model/mechanisms.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal {
@@ -15,11 +13,13 @@ std::string_view timeDependentPart(const System& system) {
         return "the potential";
     if (const Constraint* const g = system.parts.find<Constraint>(); g && g->isTimeDependent)
         return "a constraint";
+    if (const Wall* const wall = system.parts.find<Wall>(); wall && wall->isTimeDependent) return "a wall";
     return {};
 }
 
 bool conservesEnergy(const System& system) {
-    return timeDependentPart(system).empty() && !system.parts.find<Force>();
+    const Wall* const wall = system.parts.find<Wall>();
+    return timeDependentPart(system).empty() && !system.parts.find<Force>() && (!wall || wall->isElastic());
 }
 
 }  // namespace extremal

@@ -120,6 +120,10 @@ std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step
             return "The density of the local action error, which its steps follow, is 0 or not a number at "
                    "the start. Try a fixed step, or an adaptive code such as dopri5.";
     }
+    if (outcome == Outcome::accumulation)
+        return "Impacts follow each other ever faster there, or the body stays on a wall. Motion along a "
+               "wall is "
+               "not integrated: the run ends. A constraint holds a body on a surface from the start.";
     if (outcome == Outcome::stepBudget)
         return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an "
                "earlier end.";

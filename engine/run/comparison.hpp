@@ -60,10 +60,13 @@ struct Summary {
         if (observable == "energy") return &Summary::maxEnergyError;
         if (observable == "momentum") return &Summary::maxMomentumError;
         if (observable == "norm") return &Summary::maxNormError;
+        if (observable == "constraint") return &Summary::maxConstraint;
         return observable == "error" ? &Summary::maxError : nullptr;
     }
     int orderClaimed = 0;  ///< 0: no claim
     double orderMeasured = unknown;
+    double maxConstraint = unknown;
+    double impacts = unknown;  ///< on walls; of systems without walls not asked for
     double opensAt = unknown;  ///< t from which the error by a companion is too large to be true
     std::string advice;        ///< after a failure: what to try; for the window, not exported
     std::string about;         ///< how the scheme solves its equations, where that was a choice; not exported
@@ -71,7 +74,8 @@ struct Summary {
 
     /// What grows along a march.
     void checkpoint(Archive& archive) {
-        archive(maxEnergyError, maxMomentumError, maxNormError, maxError, finalError, caution);
+        archive(maxEnergyError, maxMomentumError, maxNormError, maxError, finalError, maxConstraint, impacts,
+                caution);
         for (Extreme& each : extremes) archive(each.value);
     }
 };

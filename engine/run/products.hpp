@@ -15,6 +15,7 @@
 #include "engine/run/cases/start_sets.hpp"
 #include "engine/run/kkt_pattern.hpp"
 #include "engine/run/march/found_events.hpp"
+#include "engine/run/march/found_impacts.hpp"
 #include "engine/run/march/step_records.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/trajectory/frames.hpp"
@@ -84,6 +85,7 @@ public:
         exchange<Sections>(archive);
         exchange<StepRecords>(archive);
         exchange<FoundEvents>(archive);
+        exchange<FoundImpacts>(archive);
     }
 
 private:
@@ -98,7 +100,7 @@ private:
     }
 
     using Value = std::variant<DenseOutput, FieldFrames, Sections, StepRecords, ElementClocks, KktPattern,
-                               ActionDefect, ParameterMaps, StartSets, FoundEvents>;
+                               ActionDefect, ParameterMaps, StartSets, FoundEvents, FoundImpacts>;
     std::vector<Value> all_;
 };
 

@@ -45,6 +45,7 @@ State givenState(const Scene& scene, const System& system) {
 State initialState(const Scene& scene, const System& system) {
     State state = givenState(scene, system);
     putOnConstraints(system, state, scene.initial.isProjected);
+    requireOutsideWalls(system, state);
     return state;
 }
 

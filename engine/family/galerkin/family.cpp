@@ -27,8 +27,10 @@
 #include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"
 #include "engine/integrator/condensed.hpp"
+#include "engine/mechanism/impact_step.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/mechanism/mechanism_step.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/typed.hpp"
 
@@ -181,7 +183,19 @@ Properties describeMechanism(const Discretization& d, const System& system) {
     Properties p = describeGalerkin(d);
     std::erase(p.claims.conserves, "quadratic invariants");
     if (system.parts.find<Force>()) p.claims.isSymplectic = false;
+    if (const Wall* const wall = system.parts.find<Wall>()) {
+        p.claims.isSymplectic = false;
+        p.claims.isSymmetric = p.claims.isSymmetric && wall->isElastic();
+    }
     return p;
+}
+
+std::unique_ptr<Integrator> mechanismStep(const System& system, const Discretization& d, double step) {
+    constexpr int placesPerFunction = 8;  // of a curve of degree s gaps are looked at in 8 s places
+    const Table<double> table = tableOf(d.space, d.quadrature);
+    auto plain = makeMechanismStep(system.parts, table, step, solverPolicy(d.solver, system));
+    if (!system.parts.find<Wall>()) return plain;
+    return makeImpactStep(system.parts, std::move(plain), placesPerFunction * table.unknowns());
 }
 
 ReferencePlan trusted(const System& system, const State&, double) {
@@ -230,12 +244,10 @@ Family galerkin() {
         return rules;
     };
     f.written = galerkin::written;
-    f.takes = Takes::only<Mechanical, Constraint, Force>();
+    f.takes = mechanisms();
     f.parts.set(SchemeCondition{mechanismProblem});
     f.make = [](const System& system, const Discretization& d, double step) {
-        if (Mechanism::isOne(system.parts))
-            return makeMechanismStep(system.parts, tableOf(d.space, d.quadrature), step,
-                                     solverPolicy(d.solver, system));
+        if (Mechanism::isOne(system.parts)) return mechanismStep(system, d, step);
         if (galerkin::isSplit(d)) {
             const galerkin::Split split = galerkin::splitOf(system, d);
             std::vector<LagrangianTerm<double>> parts =

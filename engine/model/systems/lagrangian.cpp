@@ -6,8 +6,8 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/model/system.hpp"
-#include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
+#include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typed_parts.hpp"
 #include "engine/model/typed/typed_picture.hpp"
 #include "engine/model/typed/typeset.hpp"
@@ -25,6 +25,7 @@ System makeLagrangian(const Settings& settings) {
     s.parts.set(std::move(made.mechanics));
     if (auto constraint = typed::constraintOf(settings, formula)) s.parts.set(*std::move(constraint));
     if (auto force = typed::forceOf(settings, formula)) s.parts.set(*std::move(force));
+    if (auto wall = typed::wallOf(settings, formula)) s.parts.set(*std::move(wall));
     for (const int i : made.cyclic) {
         if (!typed::isUntouched(settings, formula, i)) continue;
         const auto k = static_cast<std::size_t>(i);
@@ -80,7 +81,14 @@ std::vector<FieldInfo> lagrangianFields() {
         textField("dissipation", "", nullptr,
                   "Rayleigh's function D, a formula in velocities (\"c/2*x_t^2\"): adds the force -dD/dv.");
     dissipation.isOptional = true;
-    return {coordinates, parameters, lagrangian, constraints, forces, dissipation};
+    FieldInfo walls;
+    walls.key = walls.title = "walls";
+    walls.type = FieldType::json;
+    walls.isOptional = true;
+    walls.description =
+        "Walls by name: a formula in coordinates and t that stays positive (\"y\"), or "
+        "{\"gap\": formula, \"restitution\": 0 to 1}.";
+    return {coordinates, parameters, lagrangian, constraints, forces, dissipation, walls};
 }
 
 }  // namespace

@@ -224,6 +224,79 @@ void addForces(const Settings& settings, const Formula& formula, Roots& roots, F
     }
 }
 
+/// Relations of places and time by name, as one model.
+class Relations {
+public:
+    /// `place`: where they are typed, in front of their names.
+    Relations(const Formula& formula, std::string place)
+        : formula_(formula), withTime_(withTime(formula, "")), roots_(withTime_), place_(std::move(place)) {
+        model_->d = formula.dimension();
+    }
+
+    /// `pointer`: of the text.
+    void add(const std::string& name, const std::string& text, const std::string& pointer) {
+        const int d = formula_.dimension();
+        if (const std::string problem = nameProblem(name); !problem.empty())
+            throw InvalidScene(place_ + name, "the name \"" + name + "\" " + problem);
+        const Formula own = withTime(formula_, text);
+        const auto symbolic = derivatives(own, pointer);
+        requireNoVelocities(own, name, pointer);
+        std::vector<int> nodes{symbolic->value};
+        nodes.insert(nodes.end(), symbolic->gradient.begin(), symbolic->gradient.begin() + d + 1);
+        const std::vector<int> here = roots_.adopt(symbolic->graph, nodes);
+        if (std::all_of(here.begin() + 1, here.begin() + 1 + d,
+                        [&](int node) { return roots_.graph().isZero(node); }))
+            throw InvalidScene(pointer, "no coordinate is in it, so that it constrains nothing");
+        values_.insert(values_.end(), here.begin(), here.end());
+        const std::vector<int> hessian(symbolic->hessian.begin(),
+                                       symbolic->hessian.begin() + (d + 1) * (d + 2) / 2);
+        const std::vector<int> curved = roots_.adopt(symbolic->graph, hessian);
+        std::size_t next = 0;
+        for (int i = 0; i <= d; ++i)
+            for (int j = 0; j <= i; ++j, ++next) {
+                if (roots_.graph().isZero(curved[next])) continue;
+                model_->entries.push_back({model_->count, i, j, seconds_.size()});
+                seconds_.push_back(curved[next]);
+            }
+        isTimeDependent_ = isTimeDependent_ ||
+                           roots_.graph().dependsOn({here.front()}, [d](int symbol) { return symbol == d; });
+        names_.push_back(name);
+        ++model_->count;
+    }
+
+    const std::vector<std::string>& names() const { return names_; }
+    bool isTimeDependent() const { return isTimeDependent_; }
+    std::shared_ptr<const ConstraintModel> model() {
+        model_->value = roots_.tape(values_);
+        model_->second = roots_.tape(seconds_);
+        return model_;
+    }
+
+private:
+    const Formula& formula_;
+    Formula withTime_;
+    Roots roots_;
+    std::string place_;
+    std::shared_ptr<ConstraintModel> model_ = std::make_shared<ConstraintModel>();
+    std::vector<std::string> names_;
+    std::vector<int> values_, seconds_;
+    bool isTimeDependent_ = false;
+};
+
+/// A number, or a formula in parameters.
+double numberOf(const Value& value, const Formula& formula, const std::string& pointer) {
+    if (value.isNumber()) return value.asNumber();
+    if (!value.isString()) throw InvalidScene(pointer, "must be a number or a formula in parameters");
+    const Formula own = withTime(formula, value.asString());
+    const auto symbolic = derivatives(own, pointer);
+    Roots roots(own);
+    const int node = roots.adopt(symbolic->graph, {symbolic->value}).front();
+    if (!roots.graph().isNumber(node))
+        throw InvalidScene(pointer, "must be a number or a formula in parameters",
+                           "the same at all times and places");
+    return roots.graph().at(node).number;
+}
+
 bool hasForces(const Settings& settings) {
     const Value* const dissipation = settings.find("dissipation");
     return !objectOf(settings, "forces").empty() ||
@@ -235,49 +308,50 @@ bool hasForces(const Settings& settings) {
 std::optional<Constraint> constraintOf(const Settings& settings, const Formula& formula) {
     const Value::Object& typed = objectOf(settings, "constraints");
     if (typed.empty()) return {};
-    const int d = formula.dimension();
-    const Formula names = withTime(formula, "");
-    Roots roots(names);
-    auto model = std::make_shared<ConstraintModel>();
-    model->d = d;
+    Relations relations(formula, "/constraints/");
+    for (const auto& [name, text] : typed) relations.add(name, text.asString(), "/constraints/" + name);
     Constraint made;
-    std::vector<int> values, seconds;
-    for (const auto& [name, text] : typed) {
-        const std::string pointer = "/constraints/" + name;
-        if (const std::string problem = nameProblem(name); !problem.empty())
-            throw InvalidScene(pointer, "the name \"" + name + "\" " + problem);
-        const Formula own = withTime(formula, text.asString());
-        const auto symbolic = derivatives(own, pointer);
-        requireNoVelocities(own, name, pointer);
-        std::vector<int> nodes{symbolic->value};
-        nodes.insert(nodes.end(), symbolic->gradient.begin(), symbolic->gradient.begin() + d + 1);
-        const std::vector<int> here = roots.adopt(symbolic->graph, nodes);
-        if (std::all_of(here.begin() + 1, here.begin() + 1 + d,
-                        [&](int node) { return roots.graph().isZero(node); }))
-            throw InvalidScene(pointer, "no coordinate is in it, so that it constrains nothing");
-        values.insert(values.end(), here.begin(), here.end());
-        const std::vector<int> hessian(symbolic->hessian.begin(),
-                                       symbolic->hessian.begin() + (d + 1) * (d + 2) / 2);
-        const std::vector<int> curved = roots.adopt(symbolic->graph, hessian);
-        std::size_t next = 0;
-        for (int i = 0; i <= d; ++i)
-            for (int j = 0; j <= i; ++j, ++next) {
-                if (roots.graph().isZero(curved[next])) continue;
-                model->entries.push_back({model->count, i, j, seconds.size()});
-                seconds.push_back(curved[next]);
-            }
-        made.isTimeDependent =
-            made.isTimeDependent ||
-            roots.graph().dependsOn({here.front()}, [d](int symbol) { return symbol == d; });
-        made.names.push_back(name);
-        ++model->count;
-    }
-    model->value = roots.tape(values);
-    model->second = roots.tape(seconds);
-    made.model = std::move(model);
+    made.names = relations.names();
+    made.isTimeDependent = relations.isTimeDependent();
+    made.model = relations.model();
     made.first = first;
     made.addCurvature = addCurvature;
     made.rates = rates;
+    return made;
+}
+
+std::optional<Wall> wallOf(const Settings& settings, const Formula& formula) {
+    const Value* const typed = settings.find("walls");
+    if (!typed || (typed->isObject() && typed->asObject().empty())) return {};
+    if (!typed->isObject())
+        throw InvalidScene("/walls", "needs a name for each wall",
+                           R"({"floor": {"gap": "y", "restitution": 0.8}})");
+    Relations relations(formula, "/walls/");
+    Wall made;
+    for (const auto& [name, wall] : typed->asObject()) {
+        const std::string pointer = "/walls/" + name;
+        const Value* const gap = wall.isObject() ? wall.find("gap") : &wall;
+        if (!gap || !gap->isString())
+            throw InvalidScene(pointer, "needs its gap, a formula that is positive where motion is possible",
+                               R"({"gap": "y", "restitution": 0.8}, or "y" for an elastic wall)");
+        if (wall.isObject())
+            for (const auto& [key, value] : wall.asObject())
+                if (key != "gap" && key != "restitution")
+                    throw InvalidScene(pointer + "/" + key, "unknown key \"" + key + "\"",
+                                       suggestName(key, {"gap", "restitution"}));
+        relations.add(name, gap->asString(), wall.isObject() ? pointer + "/gap" : pointer);
+        const Value* const restitution = wall.isObject() ? wall.find("restitution") : nullptr;
+        made.restitution.push_back(restitution ? numberOf(*restitution, formula, pointer + "/restitution")
+                                               : 1);
+        if (!(made.restitution.back() >= 0 && made.restitution.back() <= 1))
+            throw InvalidScene(pointer + "/restitution",
+                               "must be between 0 and 1, got " + formatNumber(made.restitution.back(), 6),
+                               "1: elastic; 0: the body does not leave the wall");
+    }
+    made.names = relations.names();
+    made.isTimeDependent = relations.isTimeDependent();
+    made.model = relations.model();
+    made.first = first;
     return made;
 }
 
@@ -316,6 +390,11 @@ bool isUntouched(const Settings& settings, const Formula& formula, int coordinat
     std::vector<std::pair<std::string, bool>> texts;  // and whether a place in it is all that matters
     for (const auto& [key, text] : objectOf(settings, "constraints"))
         texts.push_back({text.asString(), true});
+    if (const Value* const walls = settings.find("walls"); walls && walls->isObject())
+        for (const auto& [key, wall] : walls->asObject()) {
+            const Value* const gap = wall.isObject() ? wall.find("gap") : &wall;
+            if (gap && gap->isString()) texts.push_back({gap->asString(), true});
+        }
     if (dissipation && dissipation->isString()) texts.push_back({dissipation->asString(), false});
     for (const auto& [key, text] : objectOf(settings, "forces"))
         if (key == name) return false;

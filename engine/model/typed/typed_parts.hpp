@@ -3,7 +3,9 @@
 ///
 /// Keys of "model": `constraints`, an object of formulas g by name in coordinates, parameters and t (g = 0);
 /// `forces`, an object of formulas by coordinate, in velocities as well; `dissipation`, Rayleigh's function
-/// D, whose force is -dD/dv. Errors: InvalidScene with pointers below /model and a caret under the place.
+/// D, whose force is -dD/dv; `walls`, by name: a gap >= 0 as a formula like those of constraints, or
+/// {"gap", "restitution"}, the restitution a number or a formula in parameters. Errors: InvalidScene with
+/// pointers below /model and a caret under the place.
 #pragma once
 
 #include <optional>
@@ -11,6 +13,7 @@
 #include "engine/core/settings.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
+#include "engine/model/parts/wall.hpp"
 #include "engine/model/typed/formula.hpp"
 
 namespace extremal::typed {
@@ -18,8 +21,9 @@ namespace extremal::typed {
 /// Nothing where none is typed. `formula`: the names, as in formulaOf.
 std::optional<Constraint> constraintOf(const Settings& settings, const Formula& formula);
 std::optional<Force> forceOf(const Settings& settings, const Formula& formula);
+std::optional<Wall> wallOf(const Settings& settings, const Formula& formula);
 
-/// Coordinates that no constraint and no force acts on: whether the momentum of a cyclic one is still kept.
+/// Coordinates that no constraint, force or wall acts on: whether the momentum of a cyclic one is still kept.
 bool isUntouched(const Settings& settings, const Formula& formula, int coordinate);
 
 }  // namespace extremal::typed

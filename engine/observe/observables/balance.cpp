@@ -10,8 +10,7 @@
 #include <memory>
 
 #include "engine/core/algebra/exact_sum.hpp"
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/observe/catalog.hpp"
 
 namespace extremal::observables {
@@ -25,7 +24,7 @@ ObservableEntry balance() {
               {},
               {},
               "forces or constraints"};
-    e.takes = Takes::only<Mechanical, Constraint, Force>();
+    e.takes = mechanisms();
     e.suits = [](const System& system) {
         return system.parts.find<Constraint>() || system.parts.find<Force>();
     };

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/mechanism/mechanism.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/observe/catalog.hpp"
 
 namespace extremal::observables {
@@ -16,7 +17,7 @@ ObservableEntry constraint() {
               {},
               {},
               "constraints"};
-    e.takes = Takes::only<Mechanical, Constraint, Force>();
+    e.takes = mechanisms();
     e.suits = [](const System& system) { return system.parts.find<Constraint>() != nullptr; };
     e.bind = [](const ObserveContext& context) {
         Observer o;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Energy H(t, q, p) and its signed change H(t) - H(0): conserved by the flow of a time-independent
 /// Lagrangian.
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/observe/catalog.hpp"
 
 namespace extremal::observables {
@@ -11,7 +10,7 @@ ObservableEntry energy() {
     ObservableEntry e;
     e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.",
               {},       {},       ""};
-    e.takes = plainProblems().with<Constraint, Force>();
+    e.takes = plainProblemsAndMechanisms();
     e.suits = [](const System& system) { return static_cast<bool>(energyOf(system)); };
     e.bind = [](const ObserveContext& context) {
         Observer o;

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/observe/measured.hpp"
 #include "engine/symmetry/conserved.hpp"
 
@@ -20,7 +19,7 @@ ObservableEntry momentum() {
               {},
               {},
               "a symmetry"};
-    e.takes = plainProblems().with<Constraint, Force>();
+    e.takes = plainProblemsAndMechanisms();
     e.suits = [](const System& system) { return measureOf(system, "momentum") || hasMomenta(system); };
     e.bind = [](const ObserveContext& context) {
         if (const Measure* mean = measureOf(context.system, "momentum"))

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/mechanism/mechanism.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/observe/catalog.hpp"
 
 namespace extremal::observables {
@@ -58,7 +59,7 @@ ObservableEntry reaction() {
               {},
               {},
               "constraints"};
-    e.takes = Takes::only<Mechanical, Constraint, Force>();
+    e.takes = mechanisms();
     e.suits = [](const System& system) { return system.parts.find<Constraint>() != nullptr; };
     e.bind = [](const ObserveContext& context) {
         Observer o;

@@ -39,9 +39,12 @@ Value eventsValue(const FoundEvents& found) {
 }
 
 std::string eventsText(const SchemeResult& result) {
-    const FoundEvents* const found = result.products.find<FoundEvents>();
-    if (!found) return {};
     std::string text;
+    if (const FoundImpacts* const impacts = result.products.find<FoundImpacts>())
+        text = "impacts: " + std::to_string(impacts->count) +
+               (impacts->isCut ? "; the file has the first " + std::to_string(FoundImpacts::mostRows) : "");
+    const FoundEvents* const found = result.products.find<FoundEvents>();
+    if (!found) return text;
     for (const FoundEvents::Event& event : found->all)
         if (event.spec.action != EventSpec::Action::stop)
             text += (text.empty() ? "" : "; ") + event.spec.title() + ": " + std::to_string(event.count);

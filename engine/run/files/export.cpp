@@ -82,6 +82,8 @@ Value summaryRow(const Summary& s) {
     row.set("order_claimed", knownNumber(s.orderClaimed > 0 ? s.orderClaimed : Summary::unknown));
     row.set("order_measured", knownNumber(s.orderMeasured));
     row.set("error_bar_opens_at", knownNumber(s.opensAt));
+    row.set("max_constraint", knownNumber(s.maxConstraint));
+    row.set("impacts", knownNumber(s.impacts));
     return row;
 }
 
@@ -283,6 +285,10 @@ void addProducts(std::vector<ExportFile>& files, const std::string& slug, const 
     if (const FoundEvents* found = scheme.products.find<FoundEvents>())
         files.push_back(
             {slug + ".events.csv", [found](FileBatch& batch) { batch.append(eventsCsv(*found)); }});
+    if (const FoundImpacts* found = scheme.products.find<FoundImpacts>())
+        files.push_back({slug + ".impacts.csv", [found](FileBatch& batch) {
+                             writeRows(found->rows, [&](const std::string& block) { batch.append(block); });
+                         }});
     if (const KktPattern* pattern = scheme.products.find<KktPattern>(); pattern && pattern->failure.empty())
         files.push_back(
             {slug + ".kkt.csv", [pattern](FileBatch& batch) { batch.append(patternCsv(*pattern)); }});

@@ -44,7 +44,10 @@ public:
             if (used < 5e-4) blockSize = std::min(nodes.capacity(), 2 * blockSize);
             if (used > 5e-3) blockSize = std::max<std::size_t>(1, blockSize / 2);
             report_.outcome = step.outcome;
-            if (step.outcome != Outcome::converged) report_.cost += step.cost;
+            if (step.outcome != Outcome::converged) {
+                report_.cost += step.cost;
+                report_.failedStep = step.step;
+            }
             checkFinite(nodes);
             checkSound(nodes);
             checkValues(nodes);

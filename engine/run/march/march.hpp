@@ -38,10 +38,11 @@ struct MarchReport {
     StepEvents events = {};
     double cpuSeconds = 0;
     StepReport last = {};                     ///< of the step to the last node
+    double failedStep = 0;                    ///< StepReport::step of the step that ended it
     std::vector<double> lastQuantities = {};  ///< of the same step, where a sink reads them
 
     void checkpoint(Archive& archive) {
-        archive(outcome, isEndedBySink, cost, events, cpuSeconds, last, lastQuantities);
+        archive(outcome, isEndedBySink, cost, events, cpuSeconds, last, failedStep, lastQuantities);
     }
 };
 

@@ -6,6 +6,7 @@
 
 #include "engine/core/text/text.hpp"
 #include "engine/family/parts/element_steps.hpp"
+#include "engine/model/parts/wall.hpp"
 #include "engine/run/advice.hpp"
 #include "engine/run/march/march_grid.hpp"
 #include "engine/run/march/timing.hpp"
@@ -59,7 +60,9 @@ void Recording::finish(const MarchReport& report) {
     } else {
         s.status = outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
         s.cause = outcome;
-        s.failedAt = outcome == Outcome::stopped ? Summary::unknown : state.t;
+        s.failedAt = outcome == Outcome::stopped        ? Summary::unknown
+                     : outcome == Outcome::accumulation ? state.t + report.failedStep
+                                                        : state.t;
         std::optional<double> next;
         if (outcome == Outcome::lost && hasLeftDomain)
             next = state.t + (scheme.isFixed() ? step : report.last.step);
@@ -123,6 +126,19 @@ std::vector<MarchSink> Recording::sinksFor(std::optional<EventWatch>& watch,
         {beforeStop([this, isDense](const Stretch& stretch) { recordRows(stretch, isDense); }), isDense});
     if (recordsSteps())
         sinks.push_back({beforeStop([this](const Stretch& stretch) { recordSteps(stretch); }), false, true});
+    if (const Wall* const wall = system.parts.find<Wall>()) {
+        FoundImpacts& found = result.products.make<FoundImpacts>();
+        if (found.rows.columns.empty()) found = FoundImpacts(wall->names);
+        result.summary.impacts = 0;
+        sinks.push_back({beforeStop([this](const Stretch& stretch) {
+                             FoundImpacts& impacts = result.products.make<FoundImpacts>();
+                             if (stretch.isStart) return;
+                             for (const Impact& impact : stretch.integrator.impacts())
+                                 impacts.add(stretch.state.node - 1, impact);
+                             result.summary.impacts = static_cast<double>(impacts.count);
+                         }),
+                         true});
+    }
     if (inside)
         sinks.push_back({beforeStop([&inside](const Stretch& stretch) {
                              if (stretch.isStart)

@@ -81,7 +81,8 @@ private slots:
             std::string(
                 "label,status,cause,failed_at,t_end,steps,rejected,newton_iterations,evaluations,"
                 "linear_solves,cpu_seconds,max_energy_error,energy_drift_per_unit_time,max_momentum_error,"
-                "max_norm_error,max_error,final_error,order_claimed,order_measured,error_bar_opens_at"));
+                "max_norm_error,max_error,final_error,order_claimed,order_measured,error_bar_opens_at,max_"
+                "constraint,impacts"));
         QVERIFY(
             summary.find("\n\"RK4, h = 0.1\",failed,not-finite,0.3,0.2,10000000000,0,0,0,0,0,,,,,,,4,,\n") !=
             std::string::npos);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The balance of energy and work, on a logarithmic axis.
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
 
@@ -15,7 +14,7 @@ ViewEntry balance() {
             .recipe = ErrorAgainstTime{"balance", "|H − H(0) − W|"},
             .scales = logAgainstTime,
             .observable = "balance",
-            .takes = Takes::only<Mechanical, Constraint, Force>()};
+            .takes = mechanisms()};
 }
 
 }  // namespace extremal::views

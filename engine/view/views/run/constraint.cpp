@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The distance from the constraints, on a logarithmic axis.
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
 
@@ -14,7 +13,7 @@ ViewEntry constraint() {
         .recipe = ErrorAgainstTime{"constraint", "max |g|"},
         .scales = logAgainstTime,
         .observable = "constraint",
-        .takes = Takes::only<Mechanical, Constraint, Force>()};
+        .takes = mechanisms()};
 }
 
 }  // namespace extremal::views

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// |H(t) - H(0)| on a logarithmic axis; says how many schemes drift (engine/figure/trend.hpp).
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
 
@@ -14,7 +13,7 @@ ViewEntry energy() {
             .recipe = OwnRecipe{"energy"},
             .scales = logAgainstTime,
             .observable = "energy",
-            .takes = plainProblems().with<Constraint, Force>()};
+            .takes = plainProblemsAndMechanisms()};
 }
 
 }  // namespace extremal::views

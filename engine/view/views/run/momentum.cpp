@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Norm of the change of the conserved momenta, on a logarithmic axis.
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/symmetry/conserved.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
@@ -15,7 +14,7 @@ ViewEntry momentum() {
             .recipe = OwnRecipe{"momentum"},
             .scales = logAgainstTime,
             .observable = "momentum",
-            .takes = plainProblems().with<Constraint, Force>(),
+            .takes = plainProblemsAndMechanisms(),
             .missing = [](const View&, const System& system) {
                 return std::string(hasMomenta(system) ? "" : "a conserved momentum");
             }};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The work of forces and of moving constraints against time.
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/view/catalog.hpp"
 
 namespace extremal::views {
@@ -12,7 +11,7 @@ ViewEntry work() {
             .recipe = ColumnAgainstTime{"work"},
             .scales = againstTime,
             .observable = "balance",
-            .takes = Takes::only<Mechanical, Constraint, Force>()};
+            .takes = mechanisms()};
 }
 
 }  // namespace extremal::views

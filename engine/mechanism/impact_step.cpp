@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/mechanism/impact_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/mechanism/mechanism.hpp"
+#include "engine/model/parts/wall.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// The last impacts on one wall, whose distances in time tell whether they accumulate.
+struct Rhythm {
+    double last[4] = {};
+    int known = 0;
+
+    void add(double t) {
+        if (known == 4) {
+            std::copy(last + 1, last + 4, last);
+            --known;
+        }
+        last[known++] = t;
+    }
+    /// Where infinitely many impacts have passed, if their distances shrink by one factor.
+    std::optional<double> end() const {
+        if (known < 4) return {};
+        const double first = last[1] - last[0], second = last[2] - last[1], third = last[3] - last[2];
+        const double r = third / second;
+        if (!(r > 0 && r < 1) || !(std::abs(second / first / r - 1) < 1e-3)) return {};
+        return last[3] + third * r / (1 - r);
+    }
+};
+
+class ImpactStep final : public Integrator {
+public:
+    ImpactStep(const Parts& parts, std::unique_ptr<Integrator> inner, int places)
+        : mechanism_(parts), wall_(*parts.find<Wall>()), inner_(std::move(inner)), places_(places) {
+        h_ = inner_->stepSize();
+        const auto n = static_cast<std::size_t>(wall_.count());
+        const auto d = static_cast<std::size_t>(mechanism_.dimension());
+        gaps_.resize(n);
+        byTime_.resize(n);
+        byPlace_.resize(n * d);
+        rhythm_.resize(n);
+        isGrazed_.assign(n, false);
+        samples_.resize(n * static_cast<std::size_t>(places_ + 1));
+        velocity_.resize(d);
+        at_.x.resize(2 * d);
+        values_.resize(inner_->quantities().size());
+        sums_.resize(values_.size());
+        work_ = -1;
+        for (std::size_t i = 0; i < values_.size(); ++i)
+            if (inner_->quantities()[i].name == "work") work_ = static_cast<int>(i);
+    }
+    ImpactStep(const ImpactStep& other)
+        : Integrator(other),
+          mechanism_(other.mechanism_),
+          wall_(other.wall_),
+          inner_(other.inner_->clone()),
+          places_(other.places_),
+          h_(other.h_),
+          work_(other.work_),
+          gaps_(other.gaps_),
+          byPlace_(other.byPlace_),
+          byTime_(other.byTime_),
+          samples_(other.samples_),
+          velocity_(other.velocity_),
+          values_(other.values_),
+          sums_(other.sums_),
+          isGrazed_(other.isGrazed_),
+          rhythm_(other.rhythm_),
+          impacts_(other.impacts_),
+          before_(other.before_),
+          at_(other.at_),
+          trial_(other.trial_) {
+        for (const Piece& piece : other.pieces_)
+            pieces_.push_back({piece.from, piece.to, piece.step->clone()});
+    }
+
+    double stepSize() const override { return h_; }
+    void setStep(double h) override {
+        h_ = h;
+        inner_->setStep(h);
+    }
+    std::vector<MemoryPart> memoryParts() const override { return inner_->memoryParts(); }
+    void begin(State& state) override {
+        inner_->begin(state);
+        std::fill(rhythm_.begin(), rhythm_.end(), Rhythm{});
+        std::fill(isGrazed_.begin(), isGrazed_.end(), false);
+    }
+
+    StepReport advance(State& state, double until) override {
+        inner_->setStop(stop());
+        inner_->setStep(h_);
+        pieces_.clear();
+        impacts_.clear();
+        before_ = state;
+        if (mustStrike(state)) return advanceWithImpacts(state, until, StepReport{});
+        StepReport report = inner_->advance(state, until);
+        if (report.outcome != Outcome::converged || !firstCrossing(before_, h_)) return report;
+        state = before_;
+        return advanceWithImpacts(state, until, report);
+    }
+
+    void denseOutput(double tau, std::span<double> x) const override {
+        for (const Piece& piece : pieces_)
+            if (tau <= piece.to) {
+                const double length = piece.to - piece.from;
+                piece.step->denseOutput(length > 0 ? std::max(0.0, (tau - piece.from) / length) : 1, x);
+                return;
+            }
+        inner_->denseOutput(tau, x);
+    }
+
+    std::string tangentProblem() const override { return "impacts are not varied yet"; }
+
+    std::span<const Quantity> quantities() const override { return inner_->quantities(); }
+    void measure(const State& state, double* values) const override {
+        if (pieces_.empty())
+            inner_->measure(state, values);
+        else
+            std::copy(sums_.begin(), sums_.end(), values);
+    }
+    std::span<const Impact> impacts() const override { return impacts_; }
+    std::string about() const override { return inner_->about(); }
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<ImpactStep>(*this); }
+    bool checkpoint(Archive& archive) override {
+        for (Rhythm& rhythm : rhythm_) {
+            for (double& t : rhythm.last) archive(t);
+            archive(rhythm.known);
+        }
+        for (std::size_t k = 0; k < isGrazed_.size(); ++k) {
+            bool isGrazed = isGrazed_[k];
+            archive(isGrazed);
+            isGrazed_[k] = isGrazed;
+        }
+        return inner_->checkpoint(archive);
+    }
+
+private:
+    /// A part of the last step between impacts, as parts of the step.
+    struct Piece {
+        double from, to;
+        std::unique_ptr<Integrator> step;
+    };
+    /// A gap that closes: within (from, to] of the step last taken.
+    struct Crossing {
+        int wall;
+        double from, to;
+    };
+
+    int dimension() const { return mechanism_.dimension(); }
+    double energyAt(const State& s) const {
+        const auto& L = mechanism_.mechanics();
+        return L.energy(L.model.get(), s.t, s.x.data(), s.x.data() + dimension());
+    }
+    void findGaps(double t, const double* q) {
+        wall_.first(wall_.model.get(), t, q, gaps_.data(), byPlace_.data(), byTime_.data());
+    }
+    double gap(int wall) const { return gaps_[static_cast<std::size_t>(wall)]; }
+    const double* normal(int wall) const { return byPlace_.data() + wall * dimension(); }
+    /// What rounding makes of a gap where findGaps() was called last, at q.
+    double roundOff(int wall, const double* q) const {
+        double terms = 0;
+        for (int i = 0; i < dimension(); ++i) terms += std::abs(normal(wall)[i] * q[i]);
+        return 64 * epsilon * terms;
+    }
+    /// d gap / dt at a state, where findGaps() was called last; and the size of its terms.
+    struct Speed {
+        double value = 0, terms = 0;
+        bool isGraze() const { return std::abs(value) < 1e-8 * terms; }
+    };
+    std::optional<Speed> speed(int wall, const State& s) {
+        const auto& L = mechanism_.mechanics();
+        if (!L.velocity(L.model.get(), s.t, s.x.data(), s.x.data() + dimension(), velocity_.data()))
+            return {};
+        Speed r{byTime_[static_cast<std::size_t>(wall)], std::abs(byTime_[static_cast<std::size_t>(wall)])};
+        for (int i = 0; i < dimension(); ++i) {
+            r.value += normal(wall)[i] * velocity_[static_cast<std::size_t>(i)];
+            r.terms += std::abs(normal(wall)[i] * velocity_[static_cast<std::size_t>(i)]);
+        }
+        return r;
+    }
+    double ahead() const { return h_ < 0 ? -1 : 1; }
+
+    /// Whether a state is on a wall and goes into it.
+    bool mustStrike(const State& s) { return fastestApproach(s) >= 0; }
+    int fastestApproach(const State& s) {
+        findGaps(s.t, s.x.data());
+        int found = -1;
+        double fastest = 0;
+        for (int k = 0; k < wall_.count(); ++k) {
+            if (!(gap(k) <= roundOff(k, s.x.data()))) continue;
+            const auto r = speed(k, s);
+            if (!r || r->isGraze() || !(r->value * ahead() < fastest)) continue;
+            fastest = r->value * ahead();
+            found = k;
+        }
+        return found;
+    }
+
+    /// The first gap that closes inside the step that `inner_` has just taken from `start`, of length h.
+    std::optional<Crossing> firstCrossing(const State& start, double h) {
+        const int n = wall_.count();
+        std::optional<Crossing> first;
+        findGaps(start.t, start.x.data());
+        std::copy(gaps_.begin(), gaps_.end(), samples_.begin());
+        for (int i = 1; i <= places_; ++i) {
+            const double tau = static_cast<double>(i) / places_;
+            inner_->denseOutput(tau, at_.x);
+            findGaps(start.t + tau * h, at_.x.data());
+            double* const row = samples_.data() + i * n;
+            std::copy(gaps_.begin(), gaps_.end(), row);
+            for (int k = 0; k < n; ++k) {
+                const auto wall = static_cast<std::size_t>(k);
+                if (row[k] > roundOff(k, at_.x.data())) isGrazed_[wall] = false;
+                if (first || isGrazed_[wall] || !(row[k] < -roundOff(k, at_.x.data()))) continue;
+                first = Crossing{k, static_cast<double>(i - 1) / places_, tau};
+            }
+            if (first) return earliestOf(*first, start, h, row);
+        }
+        return first;
+    }
+    /// Of walls that close between the same two places the one whose gap a straight line closes first; the
+    /// lower end of the interval is moved to where the gap is still open.
+    std::optional<Crossing> earliestOf(Crossing found, const State& start, double h, const double* row) {
+        const int n = wall_.count();
+        double least = 2;
+        Crossing best = found;
+        for (int k = 0; k < n; ++k) {
+            const double before = row[k - n], after = row[k];
+            if (isGrazed_[static_cast<std::size_t>(k)] || !(after < 0)) continue;
+            const double part = before > 0 ? before / (before - after) : 0;
+            if (part < least) {
+                least = part;
+                best.wall = k;
+            }
+        }
+        for (int halvings = 0; halvings < 60; ++halvings) {
+            const double tau = halvings == 0 ? best.from : best.from + (best.to - best.from) / 2;
+            if (tau > 0) {
+                inner_->denseOutput(tau, at_.x);
+                findGaps(start.t + tau * h, at_.x.data());
+                if (gap(best.wall) > 0) {
+                    best.from = tau;
+                    return best;
+                }
+                if (halvings > 0) best.to = tau;
+            } else if (samples_[static_cast<std::size_t>(best.wall)] > roundOff(best.wall, start.x.data())) {
+                return best;
+            }
+        }
+        best.from = best.to;  // never open: it rests on the wall
+        return best;
+    }
+
+    /// The step of the scheme of the length alpha h from `start`, in `trial_`.
+    Outcome tryStep(const State& start, double alpha, double h, StepReport& report) {
+        trial_ = start;
+        inner_->setStep(alpha * h);
+        const StepReport step = inner_->advance(trial_, start.t + alpha * h);
+        report.cost += step.cost;
+        report.residual = step.residual;
+        trial_.node = start.node;
+        return step.outcome;
+    }
+
+    /// alpha of the contact, whose step is then the last one taken; NaN where the gap of the scheme's own
+    /// steps stays open; nothing where a step has failed, as the report says.
+    std::optional<double> contact(const State& start, const Crossing& crossing, double h,
+                                  StepReport& report) {
+        double low = crossing.from, high = crossing.to, alpha = (low + high) / 2;
+        bool hasClosed = false;
+        for (int iteration = 0; iteration < 100; ++iteration) {
+            if (report.outcome = tryStep(start, alpha, h, report); report.outcome != Outcome::converged)
+                return {};
+            findGaps(trial_.t, trial_.x.data());
+            const double value = gap(crossing.wall);
+            const auto r = speed(crossing.wall, trial_);
+            if (!r) {
+                report.outcome = Outcome::singular;
+                return {};
+            }
+            if (std::abs(value) <= roundOff(crossing.wall, trial_.x.data()) / 16) return alpha;
+            hasClosed = hasClosed || value < 0;
+            (value > 0 ? low : high) = alpha;
+            double next = alpha - value / (r->value * h);
+            if (!(next > low && next < high)) next = (low + high) / 2;
+            if (!(std::abs(next - alpha) > 2 * epsilon * std::max(1e-3, std::abs(alpha)))) {
+                if (hasClosed) return alpha;
+                break;
+            }
+            alpha = next;
+        }
+        return hasClosed ? std::optional(alpha) : std::numeric_limits<double>::quiet_NaN();
+    }
+
+    /// One impulse after the other while a wall at the state is approached. False where there is none that
+    /// ends it.
+    bool strikeAll(State& s) {
+        const int most = 100 * wall_.count() * wall_.count();
+        for (int count = 0; count < most; ++count) {
+            const int k = fastestApproach(s);
+            if (k < 0) return true;
+            Impact impact;
+            impact.wall = k;
+            impact.t = s.t;
+            const double energy = energyAt(s), before = speed(k, s)->value,
+                         after = -wall_.restitution[static_cast<std::size_t>(k)] * before;
+            const auto impulse = mechanism_.strike(s.t, s.x.data(), s.x.data() + dimension(), normal(k),
+                                                   after - byTime_[static_cast<std::size_t>(k)]);
+            if (!impulse) return false;
+            impact.impulse = *impulse;
+            impact.speedBefore = before;
+            impact.speedAfter = after;
+            impact.energyLoss = energy - energyAt(s);
+            impacts_.push_back(impact);
+            if (impacts_.size() < 2 || impacts_[impacts_.size() - 2].wall != k ||
+                impacts_[impacts_.size() - 2].t != s.t)
+                rhythm_[static_cast<std::size_t>(k)].add(s.t);
+        }
+        return false;
+    }
+
+    void keepPiece(double from, double to, const State& end) {
+        if (!values_.empty()) {
+            inner_->measure(end, values_.data());
+            for (std::size_t i = 0; i < values_.size(); ++i) sums_[i] += values_[i];
+        }
+        pieces_.push_back({from, to, inner_->clone()});
+    }
+
+    /// From `state` to the node at `until` through all impacts before it.
+    StepReport advanceWithImpacts(State& state, double until, StepReport report) {
+        constexpr int mostImpacts = 1000;
+        report.outcome = Outcome::converged;
+        report.step = h_;
+        std::fill(sums_.begin(), sums_.end(), 0.0);
+        const double start = state.t;
+        State s = state;
+        double from = 0;
+        const auto fail = [&](Outcome outcome, double at) {
+            report.outcome = outcome;
+            if (outcome == Outcome::accumulation) report.step = at - start;
+            return report;
+        };
+        for (int count = 0; count < mostImpacts; ++count) {
+            const std::size_t known = impacts_.size();
+            if (!strikeAll(s)) return fail(Outcome::accumulation, s.t);
+            for (std::size_t i = known; i < impacts_.size(); ++i) {
+                if (work_ >= 0) sums_[static_cast<std::size_t>(work_)] -= impacts_[i].energyLoss;
+                const auto end = rhythm_[static_cast<std::size_t>(impacts_[i].wall)].end();
+                if (end && std::abs(*end - s.t) < std::abs(h_)) return fail(Outcome::accumulation, *end);
+            }
+            const double rest = until - s.t;
+            if (!(rest * ahead() > 4 * epsilon * std::abs(until))) {
+                s.t = until;
+                break;
+            }
+            if (const Outcome outcome = tryStep(s, 1, rest, report); outcome != Outcome::converged)
+                return fail(outcome, s.t);
+            std::optional<Crossing> crossing = firstCrossing(s, rest);
+            double alpha = std::numeric_limits<double>::quiet_NaN();
+            if (crossing && crossing->from >= crossing->to) return fail(Outcome::accumulation, s.t);
+            if (crossing) {
+                const auto found = contact(s, *crossing, rest, report);
+                if (!found) return fail(report.outcome, s.t);
+                alpha = *found;
+                if (!std::isfinite(alpha)) {  // only the dense output touches the wall
+                    isGrazed_[static_cast<std::size_t>(crossing->wall)] = true;
+                    continue;
+                }
+            }
+            if (!crossing) {
+                trial_.t = until;
+                keepPiece(from, 1, trial_);
+                s = trial_;
+                break;
+            }
+            const double to = (trial_.t - start) / (until - start);
+            keepPiece(from, to, trial_);
+            from = to;
+            s = trial_;
+            findGaps(s.t, s.x.data());
+            if (const auto r = speed(crossing->wall, s); r && r->isGraze())
+                isGrazed_[static_cast<std::size_t>(crossing->wall)] = true;
+            if (count + 1 == mostImpacts) return fail(Outcome::accumulation, s.t);
+        }
+        inner_->setStep(h_);
+        s.node = state.node + 1;
+        state = s;
+        return report;
+    }
+
+    Mechanism mechanism_;
+    Wall wall_;
+    std::unique_ptr<Integrator> inner_;
+    int places_;
+    double h_ = 0;
+    int work_ = -1;  ///< which quantity of the scheme is its work; -1: it does not say
+    std::vector<double> gaps_, byPlace_, byTime_, samples_, velocity_, values_, sums_;
+    std::vector<bool> isGrazed_;  ///< touched without an impact, and not left since
+    std::vector<Rhythm> rhythm_;
+    std::vector<Impact> impacts_;  ///< of the last step
+    std::vector<Piece> pieces_;    ///< of the last step, if it had impacts
+    State before_, at_, trial_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> makeImpactStep(const Parts& parts, std::unique_ptr<Integrator> inner,
+                                           int places) {
+    if (inner->stepSize() < 0 && !parts.find<Wall>()->isElastic())
+        throw InvalidScene(
+            "/time/end",
+            "is before the start, and what came before an impact that is not elastic is not known "
+            "from what follows it",
+            "a run forwards, or a restitution of 1");
+    return std::make_unique<ImpactStep>(parts, std::move(inner), places);
+}
+
+}  // namespace extremal

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Impacts on walls, for any scheme with steps of a length that can be chosen.
+///
+/// The time of contact is an unknown of the step: alpha in (0, 1) with gap(q_1(alpha h)) = 0, where q_1 is
+/// the scheme's own step of the length alpha h. Then the impulse (Mechanism::strike), then a step of the
+/// length (1 - alpha) h to the old node, in which other impacts may follow. So the order of the scheme stays;
+/// a contact on the dense output of the whole step would have the order s + 1 at most. Where a gap changes
+/// its sign is looked for at some places of the dense output in each step.
+///
+/// Impacts at one time are resolved one after the other, the fastest approach first, as a row of balls does;
+/// their order is a choice where they are not independent. A contact with |r| below 1e-8 of the speeds is a
+/// graze and not an impact.
+///
+/// Impacts may accumulate: three times in a row their distances shrink by one factor r, and
+/// t* = t_n + dt_n r / (1 - r) is where infinitely many have passed. Before the step that t* lies in the run
+/// ends with the outcome `accumulation`, StepReport::step being t* - t. The same is said, with the time of
+/// the contact, of a body that stays on a wall: it is pressed there by the forces, and no impact takes it
+/// away.
+///
+/// Known: Fetecau, Marsden, Ortiz, West 2003 (impacts of variational integrators, with equal discrete
+/// energies of both parts of a step; here H does not change at the contact, which walks less in long runs).
+#pragma once
+
+#include <memory>
+
+#include "engine/integrator/integrator.hpp"
+#include "engine/model/parts.hpp"
+
+namespace extremal {
+
+/// `inner`: a scheme of the same system without its walls; x = (q, p). `places`: at so many of each step gaps
+/// are looked at. Throws InvalidScene where a run goes back in time through walls that are not elastic.
+std::unique_ptr<Integrator> makeImpactStep(const Parts& parts, std::unique_ptr<Integrator> inner, int places);
+
+}  // namespace extremal

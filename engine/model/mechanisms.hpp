@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The parts of a mechanism: what moves a system with coordinates besides its Lagrangian.
+#pragma once
+
+#include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/force.hpp"
+#include "engine/model/parts/wall.hpp"
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+/// Lagrangians in coordinates, with all of them.
+inline Takes mechanisms() { return Takes::only<Mechanical, Constraint, Force, Wall>(); }
+
+/// Any problem, and mechanisms: of what looks at energies and momenta of states.
+inline Takes plainProblemsAndMechanisms() { return plainProblems().with<Constraint, Force, Wall>(); }
+
+}  // namespace extremal
