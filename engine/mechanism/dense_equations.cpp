@@ -13,11 +13,14 @@ class DenseEquations final : public MechanismEquations {
 
 public:
     DenseEquations(const Mechanism& mechanism, const MechanismCurve& curve)
-        : constraint_(mechanism.constraint()),
+        : mechanism_(mechanism),
+          constraint_(mechanism.constraint()),
           force_(mechanism.force()),
+          rolling_(mechanism.rolling()),
           curve_(curve),
           kernel_(mechanism.mechanics(), curve.table, ElementBasis::increments),
-          n_(mechanism.constraints()) {
+          n_(mechanism.constraints()),
+          holonomic_(mechanism.holonomic()) {
         const int d = curve_.d, m = curve_.unknowns();
         lu_ = SmallLu<double>(m * (d + n_));
         residual_ = Vector::Zero(m * (d + n_));
@@ -27,8 +30,11 @@ public:
         byState_ = Rows::Zero(d, 2 * d);
         byPlace_.assign(static_cast<std::size_t>(m + 1), Rows::Zero(n_, d));
         value_ = byTime_ = Vector::Zero(n_);
-        curvature_ = Eigen::MatrixXd::Zero(d, d);
+        curvature_ = Rows::Zero(d, d);
         motion_ = Vector::Zero(2 * d);
+        const int rolling = n_ - holonomic_;
+        rollingValue_ = rollingByTime_ = Vector::Zero(rolling);
+        rollingByState_.assign(static_cast<std::size_t>(m), Rows::Zero(rolling, 2 * d));
     }
 
     std::unique_ptr<MechanismEquations> clone() const override {
@@ -42,7 +48,8 @@ public:
         gradient_ = derivatives_.gradient;
         hessian_ = derivatives_.hessian;
         if (force_) addForces(t, h, z);
-        if (constraint_) addConstraints(t, h, z, impulses);
+        if (n_ > 0) addConstraints(t, h, z, impulses);
+        if (rolling_) addRolling(t, h, z);
         if (!gradient_.allFinite()) return false;
         residual_.head(last) = gradient_.segment(d, last);
         residual_.segment(last, d) = p + (gradient_.head(d) - gradient_.tail(d));
@@ -58,9 +65,11 @@ public:
             for (int r = 0; r < last; ++r) column[r] = H(d + r, d + c);
             for (int k = 0; k < d; ++k) column[last + k] = H(k, d + c) - H(m * d + k, d + c);
             const int a = c / d, i = c % d;
-            for (int j = 1; j <= m; ++j)
-                for (int k = 0; k < n_; ++k)
-                    column[m * d + (j - 1) * n_ + k] = curve_.atPlaces(j, a) * byPlaceAt(j)(k, i);
+            for (int j = 1; j <= m; ++j) {
+                double* const rows = column + m * d + (j - 1) * n_;
+                for (int k = 0; k < holonomic_; ++k) rows[k] = curve_.atPlaces(j, a) * byPlaceAt(j)(k, i);
+                for (int k = holonomic_; k < n_; ++k) rows[k] = rollingEntry(j - 1, k - holonomic_, a, i);
+            }
         }
         for (int j = 0; j < m; ++j)
             for (int k = 0; k < n_; ++k) {
@@ -98,13 +107,12 @@ private:
     }
 
     void addConstraints(double start, double h, const Vector& z, const Vector& impulses) {
-        const Constraint& g = *constraint_;
         const int d = curve_.d, m = curve_.unknowns();
         for (int j = 0; j <= m; ++j) {
             const double t = start + curve_.place(j) * h;
             curve_.placeAt(z, j, motion_);
             Rows& byPlace = byPlaceAt(j);
-            g.first(g.model.get(), t, motion_.data(), value_.data(), byPlace.data(), byTime_.data());
+            mechanism_.conditions(t, motion_.data(), value_, byPlace, byTime_);
             if (j > 0) residual_.segment(m * d + (j - 1) * n_, n_) = value_;
             if (j == m) break;
             const auto impulse = impulses.segment(j * n_, n_);
@@ -112,7 +120,12 @@ private:
             gradient_.head(d) += forces_;
             if (j == 0) continue;  // there the functions are 0
             curvature_.setZero();
-            g.addCurvature(g.model.get(), t, motion_.data(), impulses.data() + j * n_, curvature_.data());
+            if (constraint_)
+                constraint_->addCurvature(constraint_->model.get(), t, motion_.data(),
+                                          impulses.data() + j * n_, curvature_.data());
+            if (rolling_)
+                rolling_->addCurvature(rolling_->model.get(), t, motion_.data(),
+                                       impulses.data() + j * n_ + holonomic_, curvature_.data());
             for (int a = -1; a < m; ++a) {
                 const double test = a < 0 ? 1 : curve_.atPlaces(j, a);
                 if (a >= 0) gradient_.segment((a + 1) * d, d) += test * forces_;
@@ -123,18 +136,43 @@ private:
         }
     }
 
+    /// h r at the Gauss nodes, on the velocity of the curve: rows in the units of places.
+    void addRolling(double start, double h, const Vector& z) {
+        const int d = curve_.d, m = curve_.unknowns(), n = n_ - holonomic_;
+        length_ = h;
+        for (int i = 0; i < m; ++i) {
+            curve_.motionAtGauss(z, i, h, motion_);
+            rolling_->first(rolling_->model.get(),
+                            start + curve_.gaussPlaces[static_cast<std::size_t>(i)] * h, motion_.data(),
+                            motion_.data() + d, rollingValue_.data(),
+                            rollingByState_[static_cast<std::size_t>(i)].data(), rollingByTime_.data());
+            residual_.segment(m * d + i * n_ + holonomic_, n) = h * rollingValue_;
+        }
+    }
+    double rollingEntry(int node, int condition, int a, int coordinate) const {
+        const Rows& byState = rollingByState_[static_cast<std::size_t>(node)];
+        return length_ * curve_.atGauss.value(node, a) * byState(condition, coordinate) +
+               curve_.atGauss.slope(node, a) * byState(condition, curve_.d + coordinate);
+    }
+
+    Mechanism mechanism_;
     std::optional<Constraint> constraint_;
     std::optional<Force> force_;
+    std::optional<Rolling> rolling_;
     MechanismCurve curve_;
     ElementKernel<double> kernel_;
     ElementDerivatives<double> derivatives_;
-    int n_;
+    int n_, holonomic_;
+    double length_ = 0;  ///< of the step
     SmallLu<double> lu_;
     Vector gradient_;  ///< G by z
-    Eigen::MatrixXd hessian_, curvature_;
+    Eigen::MatrixXd hessian_;
+    Rows curvature_;
     Vector forces_, motion_, value_, byTime_;  ///< motion_: (q, v) of one node
     Rows byState_;
-    std::vector<Rows> byPlace_;  ///< g_q at e_j
+    std::vector<Rows> byPlace_;  ///< [g_q; a] at e_j
+    Vector rollingValue_, rollingByTime_;
+    std::vector<Rows> rollingByState_;  ///< at the Gauss nodes
 };
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace extremal {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double unitRoundOff = std::numeric_limits<double>::unitRoundOff();
 
 /// The last impacts on one wall, whose distances in time tell whether they accumulate.
 struct Rhythm {
@@ -172,7 +172,7 @@ private:
     double roundOff(int wall, const double* q) const {
         double terms = 0;
         for (int i = 0; i < dimension(); ++i) terms += std::abs(normal(wall)[i] * q[i]);
-        return 64 * epsilon * terms;
+        return 64 * unitRoundOff * terms;
     }
     /// d gap / dt at a state, where findGaps() was called last; and the size of its terms.
     struct Speed {
@@ -295,7 +295,7 @@ private:
             (value > 0 ? low : high) = alpha;
             double next = alpha - value / (r->value * h);
             if (!(next > low && next < high)) next = (low + high) / 2;
-            if (!(std::abs(next - alpha) > 2 * epsilon * std::max(1e-3, std::abs(alpha)))) {
+            if (!(std::abs(next - alpha) > 2 * unitRoundOff * std::max(1e-3, std::abs(alpha)))) {
                 if (hasClosed) return alpha;
                 break;
             }
@@ -362,7 +362,7 @@ private:
                 if (end && std::abs(*end - s.t) < std::abs(h_)) return fail(Outcome::accumulation, *end);
             }
             const double rest = until - s.t;
-            if (!(rest * ahead() > 4 * epsilon * std::abs(until))) {
+            if (!(rest * ahead() > 4 * unitRoundOff * std::abs(until))) {
                 s.t = until;
                 break;
             }

@@ -23,7 +23,8 @@ std::optional<Part> copyOf(const Parts& parts) {
 Mechanism::Mechanism(const Parts& parts)
     : mechanics_(*parts.find<Mechanics<double>>()),
       constraint_(copyOf<Constraint>(parts)),
-      force_(copyOf<Force>(parts)) {
+      force_(copyOf<Force>(parts)),
+      rolling_(copyOf<Rolling>(parts)) {
     const int d = dimension(), n = constraints();
     lu_ = SmallLu<double>(d + n);
     hessian_ = Rows::Zero(2 * d, 2 * d);
@@ -32,6 +33,21 @@ Mechanism::Mechanism(const Parts& parts)
     for (Vector* v : {&value_, &byTime_, &rates_}) *v = Vector::Zero(n);
     forces_ = velocity_ = byTimeOfMomentum_ = Vector::Zero(d);
     rhs_ = Vector::Zero(d + n);
+    rest_ = Vector::Zero(d);
+    rollingValue_ = rollingByTime_ = Vector::Zero(n - holonomic());
+    rollingByState_ = Rows::Zero(n - holonomic(), 2 * d);
+}
+
+void Mechanism::conditions(double t, const double* q, Vector& value, Rows& byPlace, Vector& byTime) {
+    if (constraint_)
+        constraint_->first(constraint_->model.get(), t, q, value.data(), byPlace.data(), byTime.data());
+    if (!rolling_) return;
+    const int d = dimension(), n = rolling_->count();
+    rolling_->first(rolling_->model.get(), t, q, rest_.data(), rollingValue_.data(), rollingByState_.data(),
+                    rollingByTime_.data());
+    value.tail(n).setZero();
+    byPlace.bottomRows(n) = rollingByState_.rightCols(d);
+    byTime.tail(n) = rollingValue_;
 }
 
 /// L'', L', F and the first derivatives of g.
@@ -40,8 +56,7 @@ void Mechanism::evaluate(double t, const double* q, const double* v) {
     mechanics_.jet(mechanics_.model.get(), t, q, v, &value, gradient_.data(), hessian_.data());
     forces_.setZero();
     if (force_) force_->value(force_->model.get(), t, q, v, forces_.data());
-    if (constraint_)
-        constraint_->first(constraint_->model.get(), t, q, value_.data(), byPlace_.data(), byTime_.data());
+    conditions(t, q, value_, byPlace_, byTime_);
 }
 
 /// [ L_vv, -g_q^T; g_q, 0 ] from what was evaluated last.
@@ -69,6 +84,11 @@ bool Mechanism::accelerate(double t, const double* q, const double* v, Vector& a
     evaluate(t, q, v);
     if (constraint_) constraint_->rates(constraint_->model.get(), t, q, v, rates_.data());
     const Eigen::Map<const Vector> velocity(v, d);
+    if (rolling_) {
+        rolling_->first(rolling_->model.get(), t, q, v, rollingValue_.data(), rollingByState_.data(),
+                        rollingByTime_.data());
+        rates_.tail(rolling_->count()) = rollingByState_.leftCols(d) * velocity + rollingByTime_;
+    }
     rhs_.head(d) =
         gradient_.head(d) + forces_ - hessian_.bottomLeftCorner(d, d) * velocity - byTimeOfMomentum_;
     rhs_.tail(n) = -rates_;
@@ -172,7 +192,7 @@ bool Mechanism::projectPlace(double t, double* q) {
 bool Mechanism::flow(double t, const double* q, const double* p, double* qdot, double* pdot) {
     const int d = dimension();
     if (!mechanics_.velocity(mechanics_.model.get(), t, q, p, qdot)) return false;
-    if (!constraint_) {
+    if (constraints() == 0) {
         mechanics_.gradient(mechanics_.model.get(), t, q, qdot, gradient_.data());
         if (force_) force_->value(force_->model.get(), t, q, qdot, forces_.data());
         for (int i = 0; i < d; ++i) pdot[i] = gradient_(i) + (force_ ? forces_(i) : 0);
@@ -185,13 +205,13 @@ bool Mechanism::flow(double t, const double* q, const double* p, double* qdot, d
 
 double Mechanism::largestValue(double t, const double* q) {
     if (!constraint_) return 0;
-    constraint_->first(constraint_->model.get(), t, q, value_.data(), byPlace_.data(), byTime_.data());
+    conditions(t, q, value_, byPlace_, byTime_);
     return value_.cwiseAbs().maxCoeff();
 }
 
 double Mechanism::largestRate(double t, const double* q, const double* v) {
-    if (!constraint_) return 0;
-    constraint_->first(constraint_->model.get(), t, q, value_.data(), byPlace_.data(), byTime_.data());
+    if (constraints() == 0) return 0;
+    conditions(t, q, value_, byPlace_, byTime_);
     return (byPlace_ * Eigen::Map<const Vector>(v, dimension()) + byTime_).cwiseAbs().maxCoeff();
 }
 

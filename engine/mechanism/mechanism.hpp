@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What a Lagrangian, constraints and forces say together at one state.
+/// What a Lagrangian, constraints, rolling conditions and forces say together at one state.
+///
+/// The constraints g(t, q) = 0 and the rolling conditions r = a(t, q) v - b(t, q) = 0 are rows of one matrix:
+/// g_q stands for [g_q; a] below, g_t for [g_t; -b], and lambda for the multipliers of both.
 ///
 /// With the velocity v, the acceleration a and the multipliers lambda of a state on g(t, q) = 0,
 ///     L_vv a - g_q^T lambda = L_q + F - L_vq v - L_vt,    g_q a = -(v^T g_qq v + 2 g_qt v + g_tt):
@@ -22,6 +25,7 @@
 #include "engine/model/mechanics.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
+#include "engine/model/parts/rolling.hpp"
 #include "engine/model/parts/wall.hpp"
 #include "engine/solve/small_lu.hpp"
 
@@ -36,14 +40,24 @@ public:
     explicit Mechanism(const Parts& parts);
     /// Whether there is more in it than a Lagrangian.
     static bool isOne(const Parts& parts) {
-        return parts.find<Constraint>() || parts.find<Force>() || parts.find<Wall>();
+        return parts.find<Constraint>() || parts.find<Force>() || parts.find<Rolling>() || parts.find<Wall>();
     }
 
     const Mechanics<double>& mechanics() const { return mechanics_; }
     const std::optional<Constraint>& constraint() const { return constraint_; }
     const std::optional<Force>& force() const { return force_; }
     int dimension() const { return mechanics_.dimension; }
-    int constraints() const { return constraint_ ? constraint_->count() : 0; }
+    const std::optional<Rolling>& rolling() const { return rolling_; }
+    /// How many of the rows are constraints, and how many there are in all.
+    int holonomic() const { return constraint_ ? constraint_->count() : 0; }
+    int constraints() const { return holonomic() + (rolling_ ? rolling_->count() : 0); }
+    const std::string& nameOf(int row) const {
+        return row < holonomic() ? constraint_->names[static_cast<std::size_t>(row)]
+                                 : rolling_->names[static_cast<std::size_t>(row - holonomic())];
+    }
+
+    /// The rows at (t, q): g with 0 for rolling conditions, [g_q; a], [g_t; -b].
+    void conditions(double t, const double* q, Vector& value, Rows& byPlace, Vector& byTime);
 
     /// Acceleration and multipliers at (t, q, v). False where they are not determined.
     bool accelerate(double t, const double* q, const double* v, Vector& acceleration, Vector& multipliers);
@@ -60,7 +74,7 @@ public:
     bool flow(double t, const double* q, const double* p, double* qdot, double* pdot);
     /// L_vv(k, k) where accelerate() was asked last.
     double mass(int k) const { return hessian_(dimension() + k, dimension() + k); }
-    /// The largest |g_k| at (t, q), and the largest |g_q v + g_t|.
+    /// The largest |g_k| at (t, q), and the largest |g_q v + g_t| and |a v - b|.
     double largestValue(double t, const double* q);
     double largestRate(double t, const double* q, const double* v);
     /// Smallest over largest singular value of M^(-1/2) g_q^T, and the constraint that depends on others most
@@ -78,10 +92,13 @@ private:
     Mechanics<double> mechanics_;
     std::optional<Constraint> constraint_;
     std::optional<Force> force_;
+    std::optional<Rolling> rolling_;
     SmallLu<double> lu_;
     Rows hessian_, byPlace_;
     Vector gradient_, value_, byTime_, rates_, forces_, rhs_, velocity_, acceleration_, multipliers_;
-    Vector byTimeOfMomentum_;  ///< L_vt
+    Vector byTimeOfMomentum_;                     ///< L_vt
+    Vector rollingValue_, rollingByTime_, rest_;  ///< r and r_t; no velocities
+    Rows rollingByState_;
 };
 
 }  // namespace extremal

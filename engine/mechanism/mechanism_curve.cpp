@@ -23,6 +23,8 @@ MechanismCurve::MechanismCurve(const Table<double>& ofStep, int dimension) : tab
                            "polynomials");
     endSlope = samples({1.0}).slope;
     fit = dense::inverse<double>(ends);
+    gaussPlaces = gauss<double>(m).c;
+    atGauss = samples(gaussPlaces);
 }
 
 MechanismCurve::Samples MechanismCurve::samples(const std::vector<double>& at) const {
@@ -41,6 +43,16 @@ MechanismCurve::Samples MechanismCurve::samples(const std::vector<double>& at) c
 void MechanismCurve::placeAt(const Eigen::VectorXd& z, int j, Eigen::VectorXd& node) const {
     node.head(d) = z.head(d);
     for (int a = 0; a < unknowns(); ++a) node.head(d) += atPlaces(j, a) * z.segment((a + 1) * d, d);
+}
+
+void MechanismCurve::motionAtGauss(const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const {
+    auto q = node.head(d), v = node.tail(d);
+    q = z.head(d);
+    v.setZero();
+    for (int a = 0; a < unknowns(); ++a) {
+        q += atGauss.value(i, a) * z.segment((a + 1) * d, d);
+        v += atGauss.slope(i, a) / h * z.segment((a + 1) * d, d);
+    }
 }
 
 void MechanismCurve::motionAt(const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const {

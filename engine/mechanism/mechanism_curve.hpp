@@ -24,6 +24,8 @@ struct MechanismCurve {
     double weight(int j) const { return weights[static_cast<std::size_t>(j)]; }
     /// q(e_j) into the front of `node`.
     void placeAt(const Eigen::VectorXd& z, int j, Eigen::VectorXd& node) const;
+    /// (q, v) at one of the m Gauss nodes, where rolling conditions hold.
+    void motionAtGauss(const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const;
     /// (q, v) at node i of the rule, in a step of length h.
     void motionAt(const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const;
 
@@ -39,6 +41,8 @@ struct MechanismCurve {
     Eigen::MatrixXd atPlaces;  ///< (j, a): phi_a(e_j)
     Eigen::MatrixXd fit;       ///< the inverse of its rows j = 1..m
     Eigen::MatrixXd endSlope;  ///< (0, a): phi_a'(1)
+    std::vector<double> gaussPlaces;
+    Samples atGauss;  ///< of the functions at the Gauss nodes
 };
 
 }  // namespace extremal

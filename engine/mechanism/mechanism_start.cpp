@@ -35,30 +35,32 @@ std::pair<std::string, double> worstMiss(const Constraint& g, double t, const do
     return {g.names[worst], value[worst]};
 }
 
-}  // namespace
-
-void putOnConstraints(const System& system, State& state, bool movesFar) {
-    const Constraint* const g = system.parts.find<Constraint>();
-    if (!g) return;
-    const auto d = static_cast<std::size_t>(system.dimension());
-    if (g->count() >= system.dimension() && !g->isTimeDependent)
-        throw InvalidScene("/model/constraints",
-                           "has " + std::to_string(g->count()) + " constraints for " + std::to_string(d) +
+/// Constraints and rolling conditions that leave a motion, and do not repeat each other at the state.
+void requireIndependent(Mechanism& mechanism, const State& state) {
+    const int d = mechanism.dimension(), n = mechanism.constraints();
+    const char* const what = mechanism.rolling() ? " conditions" : " constraints";
+    const bool isDriven = mechanism.constraint() && mechanism.constraint()->isTimeDependent;
+    if (n >= d && !isDriven)
+        throw InvalidScene(mechanism.constraint() ? "/model/constraints" : "/model/rolling",
+                           "has " + std::to_string(n) + what + " for " + std::to_string(d) +
                                (d == 1 ? " coordinate" : " coordinates") + ", so that nothing can move",
-                           "fewer constraints, or more coordinates");
-    Mechanism mechanism(system.parts);
+                           "fewer" + std::string(what) + ", or more coordinates");
+    const Mechanism::Rank rank = mechanism.rank(state.t, state.x.data());
+    if (rank.ratio > dependent || rank.dependent < 0) return;
+    throw InvalidScene((rank.dependent < mechanism.holonomic() ? "/model/constraints/" : "/model/rolling/") +
+                           mechanism.nameOf(rank.dependent),
+                       n == 1 ? "has a gradient of 0 at the initial data"
+                              : "depends on the other" + std::string(what) +
+                                    " at the initial data: it allows the same motions",
+                       n == 1 ? "another start" : "leave it out, or start elsewhere");
+}
+
+void moveOntoConstraints(const System& system, Mechanism& mechanism, State& state, bool movesFar) {
+    const auto d = static_cast<std::size_t>(system.dimension());
     std::vector<double> q(state.x.begin(), state.x.begin() + static_cast<std::ptrdiff_t>(d));
-    const auto [name, miss] = worstMiss(*g, state.t, q.data(), d);
+    const auto [name, miss] = worstMiss(*mechanism.constraint(), state.t, q.data(), d);
     if (!std::isfinite(miss))
         throw InvalidScene("/model/constraints/" + name, "is not finite at the initial data");
-    if (const Mechanism::Rank rank = mechanism.rank(state.t, q.data());
-        !(rank.ratio > dependent) && rank.dependent >= 0)
-        throw InvalidScene(
-            "/model/constraints/" + g->names[static_cast<std::size_t>(rank.dependent)],
-            g->count() == 1
-                ? "has a gradient of 0 at the initial data"
-                : "depends on the other constraints at the initial data: it allows the same motions",
-            g->count() == 1 ? "another start" : "leave it out, or start elsewhere");
     const bool isFound = mechanism.projectPlace(state.t, q.data());
     double change = 0;
     for (std::size_t i = 0; i < d; ++i)
@@ -72,6 +74,16 @@ void putOnConstraints(const System& system, State& state, bool movesFar) {
         throw InvalidScene("/initial/q", "misses the constraint " + name + " by " + formatNumber(miss, 3),
                            "\"project\": true in initial moves it to " + placesText(system, q));
     std::copy(q.begin(), q.end(), state.x.begin());
+}
+
+}  // namespace
+
+void putOnConstraints(const System& system, State& state, bool movesFar) {
+    if (!system.parts.find<Constraint>() && !system.parts.find<Rolling>()) return;
+    const auto d = static_cast<std::size_t>(system.dimension());
+    Mechanism mechanism(system.parts);
+    requireIndependent(mechanism, state);
+    if (mechanism.constraint()) moveOntoConstraints(system, mechanism, state, movesFar);
     Eigen::VectorXd v, kappa;
     if (!mechanism.project(state.t, state.x.data(), state.x.data() + d, v, kappa))
         throw InvalidScene("/initial", "has momenta that no velocity on the constraints belongs to");
@@ -98,7 +110,7 @@ void requireOutsideWalls(const System& system, const State& state) {
 }
 
 std::string projectionNote(const System& system, const State& given, const State& projected) {
-    if (!system.parts.find<Constraint>()) return {};
+    if (!system.parts.find<Constraint>() && !system.parts.find<Rolling>()) return {};
     const auto d = static_cast<std::size_t>(system.dimension());
     double size = 0, change = 0;
     std::size_t worst = 0;

@@ -266,8 +266,7 @@ private:
             endVelocity_.setZero();
             for (int a = 0; a < m; ++a) endVelocity_ += curve_.endSlope(0, a) / h_ * Y_.segment(a * d, d);
             if (!mechanism_.project(end, q1_.data(), p1_.data(), endVelocity_, kappa_, true)) return false;
-            const Constraint& g = *mechanism_.constraint();
-            g.first(g.model.get(), end, q1_.data(), value_.data(), byPlace_.data(), byTime_.data());
+            mechanism_.conditions(end, q1_.data(), value_, byPlace_, byTime_);
             forces_ = byPlace_.transpose() * kappa_;
         } else {
             forces_.setZero();
@@ -292,18 +291,19 @@ private:
         }
         return sum;
     }
-    /// -sum_{j<m} Lambda_j . g_t - kappa . g_t at the end: what constraints that move with time do.
+    /// -sum_{j<m} Lambda_j . g_t - kappa . g_t at the end: what constraints that move with time do, and
+    /// rolling conditions with a velocity of their own.
     double workOfConstraints() const {
-        if (constraints() == 0 || !mechanism_.constraint()->isTimeDependent) return 0;
-        const Constraint& g = *mechanism_.constraint();
+        if (!mechanism_.rolling() && !(mechanism_.constraint() && mechanism_.constraint()->isTimeDependent))
+            return 0;
+        Mechanism mechanism = mechanism_;  // its buffers
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
         Vector q(d), value(n), byTime(n);
         Rows byPlace(n, d);
         double sum = 0;
         for (int j = 0; j <= m; ++j) {
             curve_.placeAt(z_, j, q);
-            g.first(g.model.get(), start_ + curve_.place(j) * h_, q.data(), value.data(), byPlace.data(),
-                    byTime.data());
+            mechanism.conditions(start_ + curve_.place(j) * h_, q.data(), value, byPlace, byTime);
             sum -= byTime.dot(j < m ? Vector(impulses_.segment(j * n, n)) : kappa_);
         }
         return sum;

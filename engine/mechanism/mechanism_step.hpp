@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The step of a table with constraints and forces: one system of equations.
+/// The step of a table with constraints, rolling conditions and forces: one system of equations.
 ///
 /// Functions phi_a of the space (action/table.hpp, a = 0..m-1, Y_a in R^d), rule (c_i, b_i) of L and of the
 /// forces, and the m + 1 Lobatto nodes (e_j, w_j), j = 0..m, for the constraints g, whatever the rule of L:
@@ -12,6 +12,10 @@
 ///     L_v(q_1, v_1) = p_0 + A + g_q^T kappa = p_1,    g_q v_1 + g_t = 0.
 /// The last multiplier is in no R, as the test functions vanish at the end, and the first constraint holds
 /// already: m multipliers for m constraints, shifted by one node.
+///
+/// Rolling conditions r = a v - b add a^T M_j to Gamma_j, M_j = h w_j mu_j, and hold on the velocity of the
+/// curve at the m Gauss nodes; p at the end is projected on a v_1 = b as well. With mu at the Gauss nodes p
+/// would have an error of lower order, with r at the Lobatto nodes q and p the order m (Jay 2009).
 ///
 /// Constraints at the nodes of L would leave g = 0 between steps, and p with an error that does not shrink:
 /// g vanishes at the e_j, so that the action is right to the order of the rule of interpolation on them, and

@@ -4,15 +4,16 @@
 
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
+#include "engine/model/parts/rolling.hpp"
 #include "engine/model/parts/wall.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal {
 
 /// Lagrangians in coordinates, with all of them.
-inline Takes mechanisms() { return Takes::only<Mechanical, Constraint, Force, Wall>(); }
+inline Takes mechanisms() { return Takes::only<Mechanical, Constraint, Force, Rolling, Wall>(); }
 
 /// Any problem, and mechanisms: of what looks at energies and momenta of states.
-inline Takes plainProblemsAndMechanisms() { return plainProblems().with<Constraint, Force, Wall>(); }
+inline Takes plainProblemsAndMechanisms() { return plainProblems().with<Constraint, Force, Rolling, Wall>(); }
 
 }  // namespace extremal

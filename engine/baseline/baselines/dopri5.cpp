@@ -4,10 +4,9 @@
 #include <vector>
 
 #include "engine/baseline/adaptive.hpp"
-#include "engine/mechanism/driven_flow.hpp"
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
 #include "engine/baseline/parts.hpp"
+#include "engine/mechanism/driven_flow.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal::baselines {
@@ -49,7 +48,7 @@ BaselineEntry dopri5() {
               "smooth forces"};
     e.grid = TimeGrid::landing;
     e.parts.set(BaselineTableau{dopri5Tableau});
-    e.takes = Takes::only<Mechanical, Constraint, Force>();
+    e.takes = Takes::only<Mechanical, Constraint, Force, Rolling>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Adaptive<Stepper>>(drivenMechanics(system), options);
     };

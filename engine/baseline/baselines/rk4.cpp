@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The classical Runge-Kutta method of order 4 on (q, p): accurate over short times, not symplectic.
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/parts.hpp"
 #include "engine/baseline/classical_table.hpp"
 #include "engine/baseline/classical_tangent.hpp"
 #include "engine/baseline/flow_method.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/mechanism/driven_flow.hpp"
-#include "engine/model/parts/constraint.hpp"
-#include "engine/model/parts/force.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal::baselines {
@@ -102,7 +101,7 @@ BaselineEntry rk4() {
               ""};
     e.parts.set(OscillatorLimit(2.8284271247461903));  // |R(iz)| <= 1 up to 2 sqrt 2
     e.parts.set(BaselineTableau{rk4Tableau});
-    e.takes = Takes::only<Mechanical, Constraint, Force>();
+    e.takes = Takes::only<Mechanical, Constraint, Force, Rolling>();
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<Rk4>(drivenMechanics(system), options.step);
     };

@@ -25,6 +25,7 @@ System makeLagrangian(const Settings& settings) {
     s.parts.set(std::move(made.mechanics));
     if (auto constraint = typed::constraintOf(settings, formula)) s.parts.set(*std::move(constraint));
     if (auto force = typed::forceOf(settings, formula)) s.parts.set(*std::move(force));
+    if (auto rolling = typed::rollingOf(settings, formula)) s.parts.set(*std::move(rolling));
     if (auto wall = typed::wallOf(settings, formula)) s.parts.set(*std::move(wall));
     for (const int i : made.cyclic) {
         if (!typed::isUntouched(settings, formula, i)) continue;
@@ -81,6 +82,12 @@ std::vector<FieldInfo> lagrangianFields() {
         textField("dissipation", "", nullptr,
                   "Rayleigh's function D, a formula in velocities (\"c/2*x_t^2\"): adds the force -dD/dv.");
     dissipation.isOptional = true;
+    FieldInfo rolling = textField(
+        "rolling", "", nullptr,
+        "Conditions on velocities, by name, for what rolls or slides along a blade: each formula is "
+        "linear in velocities and 0 (\"x_t*sin(phi)-y_t*cos(phi)\").");
+    rolling.type = FieldType::terms;
+    rolling.isOptional = true;
     FieldInfo walls;
     walls.key = walls.title = "walls";
     walls.type = FieldType::json;
@@ -88,7 +95,7 @@ std::vector<FieldInfo> lagrangianFields() {
     walls.description =
         "Walls by name: a formula in coordinates and t that stays positive (\"y\"), or "
         "{\"gap\": formula, \"restitution\": 0 to 1}.";
-    return {coordinates, parameters, lagrangian, constraints, forces, dissipation, walls};
+    return {coordinates, parameters, lagrangian, constraints, forces, dissipation, rolling, walls};
 }
 
 }  // namespace

@@ -283,6 +283,42 @@ private:
     bool isTimeDependent_ = false;
 };
 
+struct RollingModel {
+    int d = 0, count = 0;
+    Tape first, second;
+    struct Entry {
+        int condition, i, j;  ///< of d a_i / d q_j
+        std::size_t output;
+    };
+    std::vector<Entry> entries;
+};
+const RollingModel& rollingModel(const void* p) { return *static_cast<const RollingModel*>(p); }
+
+void firstOfRolling(const void* p, double t, const double* q, const double* v, double* r, double* byState,
+                    double* byTime) {
+    const RollingModel& m = rollingModel(p);
+    const Run run(m.first, m.d, t, q, v);
+    std::size_t next = 0;
+    for (int k = 0; k < m.count; ++k) {
+        r[k] = run[next++];
+        for (int i = 0; i < 2 * m.d; ++i) byState[k * 2 * m.d + i] = run[next++];
+        byTime[k] = run[next++];
+    }
+}
+
+void addCurvatureOfRolling(const void* p, double t, const double* q, const double* mu, double* matrix) {
+    const RollingModel& m = rollingModel(p);
+    const Run run(m.second, m.d, t, q, nullptr);
+    for (const RollingModel::Entry& e : m.entries) matrix[e.i * m.d + e.j] += mu[e.condition] * run[e.output];
+}
+
+bool hasVelocity(const Formula& own) {
+    const ResolvedFormula resolved = resolve(own);
+    const int d = own.dimension();
+    return std::any_of(resolved.symbol.begin(), resolved.symbol.end(),
+                       [d](int symbol) { return symbol >= d && symbol < 2 * d; });
+}
+
 /// A number, or a formula in parameters.
 double numberOf(const Value& value, const Formula& formula, const std::string& pointer) {
     if (value.isNumber()) return value.asNumber();
@@ -301,6 +337,14 @@ bool hasForces(const Settings& settings) {
     const Value* const dissipation = settings.find("dissipation");
     return !objectOf(settings, "forces").empty() ||
            (dissipation && dissipation->isString() && !dissipation->asString().empty());
+}
+
+/// Whether a coordinate or its velocity occurs in a formula.
+bool moves(const Formula& own, int coordinate) {
+    const ResolvedFormula resolved = resolve(own);
+    return std::any_of(resolved.symbol.begin(), resolved.symbol.end(), [&](int symbol) {
+        return symbol == coordinate || symbol == own.dimension() + coordinate;
+    });
 }
 
 }  // namespace
@@ -355,6 +399,59 @@ std::optional<Wall> wallOf(const Settings& settings, const Formula& formula) {
     return made;
 }
 
+std::optional<Rolling> rollingOf(const Settings& settings, const Formula& formula) {
+    const Value::Object& typed = objectOf(settings, "rolling");
+    if (typed.empty()) return {};
+    const int d = formula.dimension();
+    const Formula names = withTime(formula, "");
+    Roots roots(names);
+    auto model = std::make_shared<RollingModel>();
+    model->d = d;
+    Rolling made;
+    std::vector<int> values, seconds;
+    for (const auto& [name, text] : typed) {
+        const std::string pointer = "/rolling/" + name;
+        if (const std::string problem = nameProblem(name); !problem.empty())
+            throw InvalidScene(pointer, "the name \"" + name + "\" " + problem);
+        const Formula own = withTime(formula, text.asString());
+        const auto symbolic = derivatives(own, pointer);
+        requireNoRateOfTime(own, pointer);
+        if (!hasVelocity(own))
+            throw InvalidScene(pointer, "has no velocity in it",
+                               "a relation of places and time belongs under constraints");
+        const auto second = [&](int i, int j) {
+            return symbolic->hessian[at(i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i)];
+        };
+        std::vector<int> nodes{symbolic->value};
+        for (int i = 0; i < d; ++i) nodes.push_back(symbolic->gradient[at(i)]);
+        for (int i = 0; i < d; ++i) nodes.push_back(symbolic->gradient[at(d + 1 + i)]);
+        nodes.push_back(symbolic->gradient[at(d)]);
+        const std::vector<int> here = roots.adopt(symbolic->graph, nodes);
+        values.insert(values.end(), here.begin(), here.end());
+        for (int i = 0; i < d; ++i) {
+            for (int j = 0; j <= i; ++j)
+                if (!roots.graph().isZero(
+                        roots.adopt(symbolic->graph, {second(d + 1 + i, d + 1 + j)}).front()))
+                    throw InvalidScene(pointer, "is not linear in the velocities",
+                                       "a(q) v - b: velocities times functions of places");
+            for (int j = 0; j < d; ++j) {
+                const int node = roots.adopt(symbolic->graph, {second(d + 1 + i, j)}).front();
+                if (roots.graph().isZero(node)) continue;
+                model->entries.push_back({model->count, i, j, seconds.size()});
+                seconds.push_back(node);
+            }
+        }
+        made.names.push_back(name);
+        ++model->count;
+    }
+    model->first = roots.tape(values);
+    model->second = roots.tape(seconds);
+    made.model = std::move(model);
+    made.first = firstOfRolling;
+    made.addCurvature = addCurvatureOfRolling;
+    return made;
+}
+
 std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
     if (!hasForces(settings)) return {};
     const int d = formula.dimension();
@@ -390,6 +487,10 @@ bool isUntouched(const Settings& settings, const Formula& formula, int coordinat
     std::vector<std::pair<std::string, bool>> texts;  // and whether a place in it is all that matters
     for (const auto& [key, text] : objectOf(settings, "constraints"))
         texts.push_back({text.asString(), true});
+    for (const auto& [key, text] : objectOf(settings, "rolling")) {
+        const Formula own = withTime(formula, text.asString());
+        if (moves(own, coordinate)) return false;
+    }
     if (const Value* const walls = settings.find("walls"); walls && walls->isObject())
         for (const auto& [key, wall] : walls->asObject()) {
             const Value* const gap = wall.isObject() ? wall.find("gap") : &wall;

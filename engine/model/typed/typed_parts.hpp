@@ -3,7 +3,9 @@
 ///
 /// Keys of "model": `constraints`, an object of formulas g by name in coordinates, parameters and t (g = 0);
 /// `forces`, an object of formulas by coordinate, in velocities as well; `dissipation`, Rayleigh's function
-/// D, whose force is -dD/dv; `walls`, by name: a gap >= 0 as a formula like those of constraints, or
+/// D, whose force is -dD/dv; `rolling`, formulas by name that are
+/// linear in velocities and 0 (blades, wheels); `walls`, by name: a gap >= 0 as a formula like those of
+/// constraints, or
 /// {"gap", "restitution"}, the restitution a number or a formula in parameters. Errors: InvalidScene with
 /// pointers below /model and a caret under the place.
 #pragma once
@@ -13,6 +15,7 @@
 #include "engine/core/settings.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
+#include "engine/model/parts/rolling.hpp"
 #include "engine/model/parts/wall.hpp"
 #include "engine/model/typed/formula.hpp"
 
@@ -21,6 +24,7 @@ namespace extremal::typed {
 /// Nothing where none is typed. `formula`: the names, as in formulaOf.
 std::optional<Constraint> constraintOf(const Settings& settings, const Formula& formula);
 std::optional<Force> forceOf(const Settings& settings, const Formula& formula);
+std::optional<Rolling> rollingOf(const Settings& settings, const Formula& formula);
 std::optional<Wall> wallOf(const Settings& settings, const Formula& formula);
 
 /// Coordinates that no constraint, force or wall acts on: whether the momentum of a cyclic one is still kept.

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "engine/core/algebra/exact_sum.hpp"
+#include "engine/mechanism/mechanism.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/observe/catalog.hpp"
 
@@ -19,15 +20,14 @@ ObservableEntry balance() {
     ObservableEntry e;
     e.item = {"balance",
               "balance",
-              "Work W of forces and of constraints that move with time, and H - H(0) - W, which the motion "
+              "Work W of forces, of constraints that move with time and of impacts, and H - H(0) - W, which "
+              "the motion "
               "keeps at 0.",
               {},
               {},
               "forces or constraints"};
     e.takes = mechanisms();
-    e.suits = [](const System& system) {
-        return system.parts.find<Constraint>() || system.parts.find<Force>();
-    };
+    e.suits = [](const System& system) { return Mechanism::isOne(system.parts); };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         const std::string unit = context.system.energyUnit;

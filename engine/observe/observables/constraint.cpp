@@ -11,14 +11,17 @@ namespace extremal::observables {
 
 ObservableEntry constraint() {
     ObservableEntry e;
-    e.item = {"constraint",
-              "constraint",
-              "How far the state is from its constraints: the largest |g|, and the largest |dg/dt|.",
-              {},
-              {},
-              "constraints"};
+    e.item = {
+        "constraint",
+        "constraint",
+        "How far the state is from its constraints: the largest |g|, and the largest |dg/dt| or |a v - b|.",
+        {},
+        {},
+        "constraints"};
     e.takes = mechanisms();
-    e.suits = [](const System& system) { return system.parts.find<Constraint>() != nullptr; };
+    e.suits = [](const System& system) {
+        return system.parts.find<Constraint>() || system.parts.find<Rolling>();
+    };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"constraint", "max |g|", "", {}, {}}, {"constraint_velocity", "max |ġ|", "", {}, {}}};

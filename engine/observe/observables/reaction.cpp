@@ -20,52 +20,59 @@ class Reactions {
 public:
     explicit Reactions(const System& system)
         : mechanism_(system.parts), v_(Eigen::VectorXd::Zero(system.dimension())) {
-        const auto n = static_cast<std::size_t>(mechanism_.constraints());
-        g_.resize(n);
-        byTime_.resize(n);
-        byPlace_.resize(n * static_cast<std::size_t>(system.dimension()));
+        const int n = mechanism_.constraints();
+        value_ = byTime_ = Eigen::VectorXd::Zero(n);
+        byPlace_ = Mechanism::Rows::Zero(n, system.dimension());
     }
-    /// lambda_k and |lambda_k dg_k/dq| of each constraint.
+    /// lambda_k and |lambda_k dg_k/dq| of each constraint, mu_k and |mu_k a_k| of each rolling condition.
     void operator()(const State& state, const StepReport&, double* values) {
         const int d = mechanism_.dimension(), n = mechanism_.constraints();
         const auto& L = mechanism_.mechanics();
-        const Constraint& g = *mechanism_.constraint();
         const double* const q = state.x.data();
         std::fill_n(values, 2 * n, std::numeric_limits<double>::quiet_NaN());
         if (!L.velocity(L.model.get(), state.t, q, q + d, v_.data()) ||
             !mechanism_.accelerate(state.t, q, v_.data(), acceleration_, multipliers_))
             return;
-        g.first(g.model.get(), state.t, q, g_.data(), byPlace_.data(), byTime_.data());
+        mechanism_.conditions(state.t, q, value_, byPlace_, byTime_);
         for (int k = 0; k < n; ++k) {
-            const Eigen::Map<const Eigen::VectorXd> row(byPlace_.data() + k * d, d);
             values[2 * k] = multipliers_(k);
-            values[2 * k + 1] = std::abs(multipliers_(k)) * row.norm();
+            values[2 * k + 1] = std::abs(multipliers_(k)) * byPlace_.row(k).norm();
         }
     }
 
 private:
     Mechanism mechanism_;
-    Eigen::VectorXd v_, acceleration_, multipliers_;
-    std::vector<double> g_, byTime_, byPlace_;
+    Eigen::VectorXd v_, acceleration_, multipliers_, value_, byTime_;
+    Mechanism::Rows byPlace_;
 };
 
 }  // namespace
 
 ObservableEntry reaction() {
     ObservableEntry e;
-    e.item = {"reaction",
-              "reaction",
-              "Multipliers λ of the constraints at each row, and the sizes of the forces λ dg/dq.",
-              {},
-              {},
-              "constraints"};
+    e.item = {
+        "reaction",
+        "reaction",
+        "Multipliers λ of the constraints and rolling conditions at each row, and the sizes of their forces.",
+        {},
+        {},
+        "constraints"};
     e.takes = mechanisms();
-    e.suits = [](const System& system) { return system.parts.find<Constraint>() != nullptr; };
+    e.suits = [](const System& system) {
+        return system.parts.find<Constraint>() || system.parts.find<Rolling>();
+    };
     e.bind = [](const ObserveContext& context) {
         Observer o;
-        for (const std::string& name : context.system.part<Constraint>().names) {
-            o.columns.push_back({"reaction." + name, "λ_" + name, "", {}, {}});
-            o.columns.push_back({"reaction." + name + ".force", "|λ ∂g/∂q| of " + name, "", {}, {}});
+        const Mechanism mechanism(context.system.parts);
+        for (int k = 0; k < mechanism.constraints(); ++k) {
+            const std::string& name = mechanism.nameOf(k);
+            const bool isHolonomic = k < mechanism.holonomic();
+            o.columns.push_back({"reaction." + name, (isHolonomic ? "λ_" : "μ_") + name, "", {}, {}});
+            o.columns.push_back({"reaction." + name + ".force",
+                                 (isHolonomic ? "|λ ∂g/∂q| of " : "|μ a| of ") + name,
+                                 "",
+                                 {},
+                                 {}});
         }
         o.evaluate = Reactions(context.system);
         return o;
