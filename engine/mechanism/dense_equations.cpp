@@ -88,20 +88,20 @@ private:
     Rows& byPlaceAt(int j) { return byPlace_[static_cast<std::size_t>(j)]; }
 
     void addForces(double t, double h, const Vector& z) {
-        const Table<double>& table = curve_.table;
+        const MechanismCurve::Nodes& nodes = curve_.atForces;
         const int d = curve_.d, m = curve_.unknowns();
-        for (int i = 0; i < table.nodes(); ++i) {
-            curve_.motionAt(z, i, h, motion_);
-            force_->first(force_->model.get(), t + table.node(i) * h, motion_.data(), motion_.data() + d,
+        for (int i = 0; i < nodes.nodes(); ++i) {
+            curve_.motionAt(nodes, z, i, h, motion_);
+            force_->first(force_->model.get(), t + nodes.place(i) * h, motion_.data(), motion_.data() + d,
                           forces_.data(), byState_.data());
-            const double weight = h * table.weight(i);
+            const double weight = h * nodes.weight(i);
             for (int a = -1; a < m; ++a) {  // -1: q_0, whose function is 1
-                const double test = weight * (a < 0 ? 1 : table.value(i, a));
+                const double test = weight * (a < 0 ? 1 : nodes.at.value(i, a));
                 gradient_.segment((a + 1) * d, d) += test * forces_;
                 for (int b = 0; b < m; ++b)
                     hessian_.block((a + 1) * d, (b + 1) * d, d, d) +=
-                        test * (table.value(i, b) * byState_.leftCols(d) +
-                                table.derivative(i, b) / h * byState_.rightCols(d));
+                        test * (nodes.at.value(i, b) * byState_.leftCols(d) +
+                                nodes.at.slope(i, b) / h * byState_.rightCols(d));
             }
         }
     }
@@ -141,9 +141,8 @@ private:
         const int d = curve_.d, m = curve_.unknowns(), n = n_ - holonomic_;
         length_ = h;
         for (int i = 0; i < m; ++i) {
-            curve_.motionAtGauss(z, i, h, motion_);
-            rolling_->first(rolling_->model.get(),
-                            start + curve_.gaussPlaces[static_cast<std::size_t>(i)] * h, motion_.data(),
+            curve_.motionAt(curve_.atGauss, z, i, h, motion_);
+            rolling_->first(rolling_->model.get(), start + curve_.atGauss.place(i) * h, motion_.data(),
                             motion_.data() + d, rollingValue_.data(),
                             rollingByState_[static_cast<std::size_t>(i)].data(), rollingByTime_.data());
             residual_.segment(m * d + i * n_ + holonomic_, n) = h * rollingValue_;
@@ -151,8 +150,8 @@ private:
     }
     double rollingEntry(int node, int condition, int a, int coordinate) const {
         const Rows& byState = rollingByState_[static_cast<std::size_t>(node)];
-        return length_ * curve_.atGauss.value(node, a) * byState(condition, coordinate) +
-               curve_.atGauss.slope(node, a) * byState(condition, curve_.d + coordinate);
+        return length_ * curve_.atGauss.at.value(node, a) * byState(condition, coordinate) +
+               curve_.atGauss.at.slope(node, a) * byState(condition, curve_.d + coordinate);
     }
 
     Mechanism mechanism_;

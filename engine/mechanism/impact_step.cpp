@@ -15,7 +15,7 @@
 namespace extremal {
 namespace {
 
-constexpr double unitRoundOff = std::numeric_limits<double>::unitRoundOff();
+constexpr double unitRoundOff = std::numeric_limits<double>::epsilon();
 
 /// The last impacts on one wall, whose distances in time tell whether they accumulate.
 struct Rhythm {

@@ -9,7 +9,9 @@
 
 namespace extremal {
 
-MechanismCurve::MechanismCurve(const Table<double>& ofStep, int dimension) : table(ofStep), d(dimension) {
+MechanismCurve::MechanismCurve(const Table<double>& ofStep, const std::optional<Rule<double>>& forces,
+                               int dimension)
+    : table(ofStep), d(dimension) {
     const int m = unknowns();
     const Rule<double> nodes = lobatto<double>(m + 1);
     places = nodes.c;
@@ -23,8 +25,15 @@ MechanismCurve::MechanismCurve(const Table<double>& ofStep, int dimension) : tab
                            "polynomials");
     endSlope = samples({1.0}).slope;
     fit = dense::inverse<double>(ends);
-    gaussPlaces = gauss<double>(m).c;
-    atGauss = samples(gaussPlaces);
+    atGauss = {gauss<double>(m), {}};
+    if (forces)
+        atForces.rule = *forces;
+    else
+        for (int i = 0; i < table.nodes(); ++i) {
+            atForces.rule.c.push_back(table.node(i));
+            atForces.rule.b.push_back(table.weight(i));
+        }
+    for (Nodes* each : {&atGauss, &atForces}) each->at = samples(each->rule.c);
 }
 
 MechanismCurve::Samples MechanismCurve::samples(const std::vector<double>& at) const {
@@ -45,23 +54,14 @@ void MechanismCurve::placeAt(const Eigen::VectorXd& z, int j, Eigen::VectorXd& n
     for (int a = 0; a < unknowns(); ++a) node.head(d) += atPlaces(j, a) * z.segment((a + 1) * d, d);
 }
 
-void MechanismCurve::motionAtGauss(const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const {
+void MechanismCurve::motionAt(const Nodes& nodes, const Eigen::VectorXd& z, int i, double h,
+                              Eigen::VectorXd& node) const {
     auto q = node.head(d), v = node.tail(d);
     q = z.head(d);
     v.setZero();
     for (int a = 0; a < unknowns(); ++a) {
-        q += atGauss.value(i, a) * z.segment((a + 1) * d, d);
-        v += atGauss.slope(i, a) / h * z.segment((a + 1) * d, d);
-    }
-}
-
-void MechanismCurve::motionAt(const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const {
-    auto q = node.head(d), v = node.tail(d);
-    q = z.head(d);
-    v.setZero();
-    for (int a = 0; a < unknowns(); ++a) {
-        q += table.value(i, a) * z.segment((a + 1) * d, d);
-        v += table.derivative(i, a) / h * z.segment((a + 1) * d, d);
+        q += nodes.at.value(i, a) * z.segment((a + 1) * d, d);
+        v += nodes.at.slope(i, a) / h * z.segment((a + 1) * d, d);
     }
 }
 

@@ -2,21 +2,37 @@
 /// The curve of a step of a mechanism, at the nodes of its two rules.
 ///
 /// z = (q_0, Y_0, .., Y_{m-1}) with the functions phi_a of a table; Lobatto nodes (e_j, w_j), j = 0..m, for
-/// the constraints, and the rule (c_i, b_i) of the table:
+/// the constraints, and a rule (f_i, beta_i) for the forces, mostly that of the table:
 ///     q(tau) = q_0 + sum_a phi_a(tau) Y_a,    v = q' / h.
 #pragma once
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 #include "engine/action/table.hpp"
+#include "engine/quadrature/rule.hpp"
 
 namespace extremal {
 
 struct MechanismCurve {
-    /// Throws InvalidScene where the space has functions that the Lobatto nodes do not tell apart.
-    MechanismCurve(const Table<double>& table, int dimension);
+    /// The functions at some places: row j at tau_j, column a.
+    struct Samples {
+        Eigen::MatrixXd value, slope;
+    };
+    /// A rule, with the functions at its nodes.
+    struct Nodes {
+        Rule<double> rule;
+        Samples at;
+        int nodes() const { return static_cast<int>(rule.size()); }
+        double place(int i) const { return rule.c[static_cast<std::size_t>(i)]; }
+        double weight(int i) const { return rule.b[static_cast<std::size_t>(i)]; }
+    };
+
+    /// `forces`: their rule, where it is not that of the table. Throws InvalidScene where the space has
+    /// functions that the Lobatto nodes do not tell apart.
+    MechanismCurve(const Table<double>& table, const std::optional<Rule<double>>& forces, int dimension);
 
     int unknowns() const { return table.unknowns(); }
     /// e_j and w_j.
@@ -24,15 +40,8 @@ struct MechanismCurve {
     double weight(int j) const { return weights[static_cast<std::size_t>(j)]; }
     /// q(e_j) into the front of `node`.
     void placeAt(const Eigen::VectorXd& z, int j, Eigen::VectorXd& node) const;
-    /// (q, v) at one of the m Gauss nodes, where rolling conditions hold.
-    void motionAtGauss(const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const;
-    /// (q, v) at node i of the rule, in a step of length h.
-    void motionAt(const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const;
-
-    /// The functions at other places: row j at tau_j, column a.
-    struct Samples {
-        Eigen::MatrixXd value, slope;
-    };
+    /// (q, v) at node i of a rule, in a step of length h.
+    void motionAt(const Nodes& nodes, const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const;
     Samples samples(const std::vector<double>& at) const;
 
     Table<double> table;
@@ -41,8 +50,8 @@ struct MechanismCurve {
     Eigen::MatrixXd atPlaces;  ///< (j, a): phi_a(e_j)
     Eigen::MatrixXd fit;       ///< the inverse of its rows j = 1..m
     Eigen::MatrixXd endSlope;  ///< (0, a): phi_a'(1)
-    std::vector<double> gaussPlaces;
-    Samples atGauss;  ///< of the functions at the Gauss nodes
+    Nodes atForces;            ///< of the forces
+    Nodes atGauss;             ///< the m Gauss nodes, where rolling conditions hold
 };
 
 }  // namespace extremal

@@ -22,9 +22,10 @@ using Rows = Mechanism::Rows;
 
 class MechanismStep final : public Integrator {
 public:
-    MechanismStep(const Parts& parts, const Table<double>& table, double step, const SolverPolicy& policy)
+    MechanismStep(const Parts& parts, const Table<double>& table, const std::optional<Rule<double>>& forces,
+                  double step, const SolverPolicy& policy)
         : mechanism_(parts),
-          curve_(table, mechanism_.dimension()),
+          curve_(table, forces, mechanism_.dimension()),
           equations_(denseEquations(mechanism_, curve_)),
           policy_(policy),
           tolerance_(toleranceOf<double>(policy)),
@@ -283,11 +284,11 @@ private:
         const int d = dimension();
         Vector node(2 * d), F(d);
         double sum = 0;
-        for (int i = 0; i < curve_.table.nodes(); ++i) {
-            curve_.motionAt(z_, i, h_, node);
-            force.value(force.model.get(), start_ + curve_.table.node(i) * h_, node.data(), node.data() + d,
-                        F.data());
-            sum += h_ * curve_.table.weight(i) * F.dot(node.tail(d));
+        for (int i = 0; i < curve_.atForces.nodes(); ++i) {
+            curve_.motionAt(curve_.atForces, z_, i, h_, node);
+            force.value(force.model.get(), start_ + curve_.atForces.place(i) * h_, node.data(),
+                        node.data() + d, F.data());
+            sum += h_ * curve_.atForces.weight(i) * F.dot(node.tail(d));
         }
         return sum;
     }
@@ -326,9 +327,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeMechanismStep(const Parts& parts, const Table<double>& table, double step,
+std::unique_ptr<Integrator> makeMechanismStep(const Parts& parts, const Table<double>& table,
+                                              const std::optional<Rule<double>>& forces, double step,
                                               const SolverPolicy& policy) {
-    return std::make_unique<MechanismStep>(parts, table, step, policy);
+    return std::make_unique<MechanismStep>(parts, table, forces, step, policy);
 }
 
 }  // namespace extremal

@@ -29,17 +29,21 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "engine/action/table.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/parts.hpp"
+#include "engine/quadrature/rule.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
 
-/// `table` for a step; it must not change with the step. Throws InvalidScene where the space has functions
+/// `table` for a step; it must not change with the step. `forces`: their rule, where it is not that of the
+/// table. Throws InvalidScene where the space has functions
 /// that the Lobatto nodes do not tell apart.
-std::unique_ptr<Integrator> makeMechanismStep(const Parts& parts, const Table<double>& table, double step,
+std::unique_ptr<Integrator> makeMechanismStep(const Parts& parts, const Table<double>& table,
+                                              const std::optional<Rule<double>>& forces, double step,
                                               const SolverPolicy& policy);
 
 }  // namespace extremal

@@ -13,6 +13,7 @@
 #include "engine/family/family.hpp"
 #include "engine/family/frequency.hpp"
 #include "engine/family/galerkin/fitted_order.hpp"
+#include "engine/family/galerkin/mechanism.hpp"
 #include "engine/family/galerkin/split.hpp"
 #include "engine/family/galerkin/tables.hpp"
 #include "engine/family/galerkin/written.hpp"
@@ -27,9 +28,7 @@
 #include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"
 #include "engine/integrator/condensed.hpp"
-#include "engine/mechanism/impact_step.hpp"
 #include "engine/mechanism/mechanism.hpp"
-#include "engine/mechanism/mechanism_step.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/typed.hpp"
@@ -141,6 +140,7 @@ Properties describeGalerkin(const Discretization& discretization) {
 
 /// At the step itself: functions that depend on it, and their stability.
 void checkGalerkin(const SchemeCase& scheme, Findings& findings) {
+    if (Mechanism::isOne(scheme.system.parts)) return galerkin::checkMechanism(scheme, findings);
     if (galerkin::isSplit(scheme.discretization)) return galerkin::checkSplit(scheme, findings);
     const auto& [space, quadrature, solver] = scheme.discretization;
     if (!dependsOnStep(space)) return;
@@ -160,42 +160,6 @@ void checkGalerkin(const SchemeCase& scheme, Findings& findings) {
                          "another step", {}, "stability-limit");
         return;
     }
-}
-
-/// Constraints and forces have one table, the same for every step.
-std::string mechanismProblem(const Discretization& d, const System& system) {
-    if (!Mechanism::isOne(system.parts)) return {};
-    const std::string what = untaken(Takes::only<Mechanical>(), system.parts);
-    if (galerkin::isSplit(d))
-        return "one space and one rule are needed for " + what +
-               ": rules for terms and spaces for coordinates are for a Lagrangian alone";
-    if (galerkin::cellsIn(d.space) > 1 && system.parts.find<Constraint>())
-        return "splines with cells lose order under a constraint, which holds at the Lobatto nodes of the "
-               "whole "
-               "step: polynomials keep it";
-    if (dependsOnStep(d.space))
-        return "functions that change with the step are for a Lagrangian alone, without " + what;
-    return {};
-}
-
-/// Forces act in the variation, not in the action: momenta and symmetry stay, the symplectic form does not.
-Properties describeMechanism(const Discretization& d, const System& system) {
-    Properties p = describeGalerkin(d);
-    std::erase(p.claims.conserves, "quadratic invariants");
-    if (system.parts.find<Force>()) p.claims.isSymplectic = false;
-    if (const Wall* const wall = system.parts.find<Wall>()) {
-        p.claims.isSymplectic = false;
-        p.claims.isSymmetric = p.claims.isSymmetric && wall->isElastic();
-    }
-    return p;
-}
-
-std::unique_ptr<Integrator> mechanismStep(const System& system, const Discretization& d, double step) {
-    constexpr int placesPerFunction = 8;  // of a curve of degree s gaps are looked at in 8 s places
-    const Table<double> table = tableOf(d.space, d.quadrature);
-    auto plain = makeMechanismStep(system.parts, table, step, solverPolicy(d.solver, system));
-    if (!system.parts.find<Wall>()) return plain;
-    return makeImpactStep(system.parts, std::move(plain), placesPerFunction * table.unknowns());
 }
 
 ReferencePlan trusted(const System& system, const State&, double) {
@@ -245,9 +209,9 @@ Family galerkin() {
     };
     f.written = galerkin::written;
     f.takes = mechanisms();
-    f.parts.set(SchemeCondition{mechanismProblem});
+    f.parts.set(SchemeCondition{galerkin::mechanismProblem});
     f.make = [](const System& system, const Discretization& d, double step) {
-        if (Mechanism::isOne(system.parts)) return mechanismStep(system, d, step);
+        if (Mechanism::isOne(system.parts)) return galerkin::mechanismStep(system, d, step);
         if (galerkin::isSplit(d)) {
             const galerkin::Split split = galerkin::splitOf(system, d);
             std::vector<LagrangianTerm<double>> parts =
@@ -265,7 +229,8 @@ Family galerkin() {
     f.parts.set(TrustedScheme{trusted});
     f.parts.set(
         DescribedOnSystem{[](const Discretization& d, const System& system) -> std::optional<Properties> {
-            if (Mechanism::isOne(system.parts) && !galerkin::isSplit(d)) return describeMechanism(d, system);
+            if (Mechanism::isOne(system.parts) && galerkin::mechanismProblem(d, system).empty())
+                return galerkin::describeMechanism(d, system, describeGalerkin);
             if (!galerkin::isSplit(d)) return {};
             return galerkin::describeSplit(d, system);
         }});
