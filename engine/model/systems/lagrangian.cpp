@@ -88,6 +88,13 @@ std::vector<FieldInfo> lagrangianFields() {
         "linear in velocities and 0 (\"x_t*sin(phi)-y_t*cos(phi)\").");
     rolling.type = FieldType::terms;
     rolling.isOptional = true;
+    FieldInfo controls;
+    controls.key = controls.title = "controls";
+    controls.type = FieldType::json;
+    controls.isOptional = true;
+    controls.description =
+        "Functions of time by name, for use in the other formulas: a formula in t and parameters, or "
+        "{\"table\": [[t, value], ...], \"interpolation\": \"linear\" or \"cubic\"}.";
     FieldInfo walls;
     walls.key = walls.title = "walls";
     walls.type = FieldType::json;
@@ -95,7 +102,7 @@ std::vector<FieldInfo> lagrangianFields() {
     walls.description =
         "Walls by name: a formula in coordinates and t that stays positive (\"y\"), or "
         "{\"gap\": formula, \"restitution\": 0 to 1}.";
-    return {coordinates, parameters, lagrangian, constraints, forces, dissipation, rolling, walls};
+    return {coordinates, parameters, lagrangian, constraints, forces, dissipation, controls, rolling, walls};
 }
 
 }  // namespace

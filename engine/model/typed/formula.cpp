@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "engine/core/text/text.hpp"
+#include "engine/model/typed/controls.hpp"
 
 namespace extremal::typed {
 namespace {
@@ -28,7 +29,7 @@ public:
     }
 
     ResolvedFormula resolve() {
-        result_.expression = parseExpression(formula_.text);
+        result_.expression = withControls(parseExpression(formula_.text), formula_.controls);
         const std::size_t count = result_.expression.nodes.size();
         result_.symbol.assign(count, -1);
         result_.constant.assign(count, std::nullopt);
@@ -61,6 +62,7 @@ private:
         std::vector<std::string> known = formula_.coordinates;
         for (const std::string& c : formula_.coordinates) known.push_back(c + "_t");
         for (const auto& parameter : formula_.parameters) known.push_back(parameter.first);
+        for (const auto& control : formula_.controls) known.push_back(control.first);
         known.insert(known.end(), {"t", "pi"});
         if (isFunctionName(here.name))
             return {"has an unknown name \"" + here.name + "\"", here.position,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A Lagrangian as a user types it, with every name in it understood.
 ///
-/// Names are the coordinates, their velocities (x_t or dot(x)), the parameters and t. Symbols are numbered
+/// Names are the coordinates, their velocities (x_t or dot(x)), the parameters, controls and t. Symbols are
+/// numbered
 ///     q_i: i,   v_i: d + i,   t: 2d,   acceleration of q_i: 2d + 1 + i,   parameter k: 3d + 1 + k.
 /// Errors: ExpressionError with the place in the text; an unknown name comes with the nearest known one.
 #pragma once
@@ -24,6 +25,8 @@ struct Formula {
     std::string text;  ///< of the whole Lagrangian
     /// Its terms, by name, where it is typed in terms; their sum is the text.
     std::vector<std::pair<std::string, std::string>> terms = {};
+    /// Functions of t by name (controls.hpp), which formulas may use.
+    std::vector<std::pair<std::string, Expression>> controls = {};
 
     int dimension() const { return static_cast<int>(coordinates.size()); }
     int time() const { return 2 * dimension(); }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/core/problem.hpp"
+#include "engine/model/typed/controls.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/typeset.hpp"
 
@@ -23,7 +24,7 @@ void checkName(const std::string& name, const std::string& pointer, const std::s
 
 /// Names of terms are keys of a rule.
 std::string termNameProblem(const std::string& name) {
-    for (const char* taken : {"type", "space", "time", "otherwise"})
+    for (const char* taken : {"type", "space", "time", "otherwise", "constraints", "forces", "rolling"})
         if (name == taken) return "has a meaning in rules already";
     const bool isWord = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -72,6 +73,7 @@ Formula formulaOf(const Settings& settings) {
         formula.text = settings.text("lagrangian");
     }
     if (!problems.empty()) throw InvalidScene(std::move(problems));
+    formula.controls = controlsOf(settings, formula);
     return formula;
 }
 
