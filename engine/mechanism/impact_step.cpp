@@ -67,6 +67,7 @@ public:
           inner_(other.inner_->clone()),
           places_(other.places_),
           h_(other.h_),
+          fastest_(other.fastest_),
           work_(other.work_),
           gaps_(other.gaps_),
           byPlace_(other.byPlace_),
@@ -94,6 +95,7 @@ public:
     void begin(State& state) override {
         inner_->begin(state);
         std::fill(rhythm_.begin(), rhythm_.end(), Rhythm{});
+        fastest_ = 0;
         std::fill(isGrazed_.begin(), isGrazed_.end(), false);
     }
 
@@ -103,6 +105,9 @@ public:
         pieces_.clear();
         impacts_.clear();
         before_ = state;
+        findGaps(state.t, state.x.data());
+        for (int k = 0; k < wall_.count(); ++k)
+            if (gap(k) > roundOff(k, state.x.data())) isGrazed_[static_cast<std::size_t>(k)] = false;
         if (mustStrike(state)) return advanceWithImpacts(state, until, StepReport{});
         StepReport report = inner_->advance(state, until);
         if (report.outcome != Outcome::converged || !firstCrossing(before_, h_)) return report;
@@ -143,6 +148,7 @@ public:
             archive(isGrazed);
             isGrazed_[k] = isGrazed;
         }
+        archive(fastest_);
         return inner_->checkpoint(archive);
     }
 
@@ -168,27 +174,30 @@ private:
     }
     double gap(int wall) const { return gaps_[static_cast<std::size_t>(wall)]; }
     const double* normal(int wall) const { return byPlace_.data() + wall * dimension(); }
-    /// What rounding makes of a gap where findGaps() was called last, at q.
-    double roundOff(int wall, const double* q) const {
-        double terms = 0;
-        for (int i = 0; i < dimension(); ++i) terms += std::abs(normal(wall)[i] * q[i]);
-        return 64 * unitRoundOff * terms;
+    /// A depth that rounding makes, where findGaps() was called last, at q.
+    double roundOff(int wall, const double* q) const { return 1e-12 * terms(wall, q); }
+    double terms(int wall, const double* q) const {
+        double sum = 0;
+        for (int i = 0; i < dimension(); ++i) sum += std::abs(normal(wall)[i] * q[i]);
+        return sum;
     }
-    /// d gap / dt at a state, where findGaps() was called last; and the size of its terms.
+    /// d gap / dt at a state, where findGaps() was called last.
     struct Speed {
-        double value = 0, terms = 0;
-        bool isGraze() const { return std::abs(value) < 1e-8 * terms; }
+        double value = 0;
+        bool isGraze = false;  ///< nothing beside the speeds of the motion
     };
     std::optional<Speed> speed(int wall, const State& s) {
         const auto& L = mechanism_.mechanics();
         if (!L.velocity(L.model.get(), s.t, s.x.data(), s.x.data() + dimension(), velocity_.data()))
             return {};
-        Speed r{byTime_[static_cast<std::size_t>(wall)], std::abs(byTime_[static_cast<std::size_t>(wall)])};
+        double value = byTime_[static_cast<std::size_t>(wall)], size = 0;
         for (int i = 0; i < dimension(); ++i) {
-            r.value += normal(wall)[i] * velocity_[static_cast<std::size_t>(i)];
-            r.terms += std::abs(normal(wall)[i] * velocity_[static_cast<std::size_t>(i)]);
+            const double v = velocity_[static_cast<std::size_t>(i)];
+            fastest_ = std::max(fastest_, std::abs(v));
+            value += normal(wall)[i] * v;
+            size += std::abs(normal(wall)[i]);
         }
-        return r;
+        return Speed{value, std::abs(value) < 1e-10 * size * fastest_};
     }
     double ahead() const { return h_ < 0 ? -1 : 1; }
 
@@ -201,7 +210,7 @@ private:
         for (int k = 0; k < wall_.count(); ++k) {
             if (!(gap(k) <= roundOff(k, s.x.data()))) continue;
             const auto r = speed(k, s);
-            if (!r || r->isGraze() || !(r->value * ahead() < fastest)) continue;
+            if (!r || r->isGraze || !(r->value * ahead() < fastest)) continue;
             fastest = r->value * ahead();
             found = k;
         }
@@ -222,7 +231,6 @@ private:
             std::copy(gaps_.begin(), gaps_.end(), row);
             for (int k = 0; k < n; ++k) {
                 const auto wall = static_cast<std::size_t>(k);
-                if (row[k] > roundOff(k, at_.x.data())) isGrazed_[wall] = false;
                 if (first || isGrazed_[wall] || !(row[k] < -roundOff(k, at_.x.data()))) continue;
                 first = Crossing{k, static_cast<double>(i - 1) / places_, tau};
             }
@@ -290,7 +298,7 @@ private:
                 report.outcome = Outcome::singular;
                 return {};
             }
-            if (std::abs(value) <= roundOff(crossing.wall, trial_.x.data()) / 16) return alpha;
+            if (std::abs(value) <= 2 * unitRoundOff * terms(crossing.wall, trial_.x.data())) return alpha;
             hasClosed = hasClosed || value < 0;
             (value > 0 ? low : high) = alpha;
             double next = alpha - value / (r->value * h);
@@ -391,7 +399,7 @@ private:
             from = to;
             s = trial_;
             findGaps(s.t, s.x.data());
-            if (const auto r = speed(crossing->wall, s); r && r->isGraze())
+            if (const auto r = speed(crossing->wall, s); r && r->isGraze)
                 isGrazed_[static_cast<std::size_t>(crossing->wall)] = true;
             if (count + 1 == mostImpacts) return fail(Outcome::accumulation, s.t);
         }
@@ -406,7 +414,8 @@ private:
     std::unique_ptr<Integrator> inner_;
     int places_;
     double h_ = 0;
-    int work_ = -1;  ///< which quantity of the scheme is its work; -1: it does not say
+    double fastest_ = 0;  ///< the largest |v_i| that a wall has seen
+    int work_ = -1;       ///< which quantity of the scheme is its work; -1: it does not say
     std::vector<double> gaps_, byPlace_, byTime_, samples_, velocity_, values_, sums_;
     std::vector<bool> isGrazed_;  ///< touched without an impact, and not left since
     std::vector<Rhythm> rhythm_;

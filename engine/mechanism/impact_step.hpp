@@ -8,8 +8,8 @@
 /// its sign is looked for at some places of the dense output in each step.
 ///
 /// Impacts at one time are resolved one after the other, the fastest approach first, as a row of balls does;
-/// their order is a choice where they are not independent. A contact with |r| below 1e-8 of the speeds is a
-/// graze and not an impact.
+/// their order is a choice where they are not independent. A contact with |r| below 1e-10 of the
+/// speeds of the motion is a graze and not an impact, and a depth of 1e-12 of the places is rounding.
 ///
 /// Impacts may accumulate: three times in a row their distances shrink by one factor r, and
 /// t* = t_n + dt_n r / (1 - r) is where infinitely many have passed. Before the step that t* lies in the run

@@ -19,7 +19,9 @@ std::string_view timeDependentPart(const System& system) {
 
 bool conservesEnergy(const System& system) {
     const Wall* const wall = system.parts.find<Wall>();
-    return timeDependentPart(system).empty() && !system.parts.find<Force>() && (!wall || wall->isElastic());
+    const Rolling* const rolling = system.parts.find<Rolling>();
+    return timeDependentPart(system).empty() && !system.parts.find<Force>() &&
+           !(rolling && rolling->isDriven) && (!wall || wall->isElastic());
 }
 
 }  // namespace extremal

@@ -20,6 +20,7 @@ struct Rolling {
 
     std::vector<std::string> names;     ///< "blade": one for each condition
     std::shared_ptr<const void> model;  ///< first argument of the calls
+    bool isDriven = false;              ///< b is not 0: it does work
 
     int count() const { return static_cast<int>(names.size()); }
 

@@ -72,7 +72,7 @@ Expression tableControl(const Value& control, const std::string& pointer) {
 std::vector<std::pair<std::string, Expression>> controlsOf(const Settings& settings, const Formula& formula) {
     std::vector<std::pair<std::string, Expression>> all;
     const Value* const typed = settings.find("controls");
-    if (!typed) return all;
+    if (!typed || typed->isNull()) return all;
     if (!typed->isObject())
         throw InvalidScene("/controls", "needs a name for each control", "{\"u\": \"sin(t)\"}");
     for (const auto& [name, control] : typed->asObject()) {

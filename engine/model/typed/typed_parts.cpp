@@ -2,6 +2,7 @@
 #include "engine/model/typed/typed_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -172,7 +173,7 @@ void requireNoVelocities(const Formula& own, const std::string& name, const std:
         if (symbol < d || symbol >= 2 * d) continue;
         throw InvalidScene(
             pointer, "has a velocity in it\n" + caretLines(own.text, resolved.expression.nodes[n].position),
-            "a constraint is a relation of places and time: write what " + name + " says without velocities");
+            "write what " + name + " says of places and time; conditions on velocities belong under rolling");
     }
 }
 
@@ -339,6 +340,19 @@ bool hasForces(const Settings& settings) {
            (dissipation && dissipation->isString() && !dissipation->asString().empty());
 }
 
+/// Whether bodies at rest violate a condition at some place and time.
+bool isDriven(const RollingModel& model) {
+    const auto d = at(model.d), n = at(model.count);
+    std::vector<double> q(d), v(d), r(n), byState(2 * n * d), byTime(n);
+    for (int trial = 1; trial <= 4; ++trial) {
+        for (std::size_t k = 0; k < d; ++k) q[k] = std::sin(1.3 * trial + 0.7 * static_cast<double>(k)) + 0.1;
+        firstOfRolling(&model, 0.37 * trial, q.data(), v.data(), r.data(), byState.data(), byTime.data());
+        for (const double b : r)
+            if (b != 0 && std::isfinite(b)) return true;
+    }
+    return false;
+}
+
 /// Whether a coordinate or its velocity occurs in a formula.
 bool moves(const Formula& own, int coordinate) {
     const ResolvedFormula resolved = resolve(own);
@@ -366,7 +380,7 @@ std::optional<Constraint> constraintOf(const Settings& settings, const Formula& 
 
 std::optional<Wall> wallOf(const Settings& settings, const Formula& formula) {
     const Value* const typed = settings.find("walls");
-    if (!typed || (typed->isObject() && typed->asObject().empty())) return {};
+    if (!typed || typed->isNull() || (typed->isObject() && typed->asObject().empty())) return {};
     if (!typed->isObject())
         throw InvalidScene("/walls", "needs a name for each wall",
                            R"({"floor": {"gap": "y", "restitution": 0.8}})");
@@ -446,6 +460,7 @@ std::optional<Rolling> rollingOf(const Settings& settings, const Formula& formul
     }
     model->first = roots.tape(values);
     model->second = roots.tape(seconds);
+    made.isDriven = isDriven(*model);
     made.model = std::move(model);
     made.first = firstOfRolling;
     made.addCurvature = addCurvatureOfRolling;

@@ -42,6 +42,14 @@ inline System typed(const Value::Array& coordinates, const std::string& lagrangi
     return laws::systemNamed("lagrangian", keys);
 }
 
+/// With any keys of the model besides.
+inline System typedWith(const Value::Array& coordinates, const std::string& lagrangian,
+                        const Value::Object& further, const Value::Object& parameters = {}) {
+    Value::Object keys{{"coordinates", coordinates}, {"parameters", parameters}, {"lagrangian", lagrangian}};
+    keys.insert(keys.end(), further.begin(), further.end());
+    return laws::systemNamed("lagrangian", keys);
+}
+
 /// A ball on a rod of length 1.
 inline Mechanical sphericalPendulum(const Value::Object& forces = {}) {
     return startAt(
@@ -73,12 +81,13 @@ struct Ending {
     State state;
     double largestValue = 0, largestRate = 0;  ///< of the constraints, at all nodes
     double work = 0;
+    int impacts = 0;
 };
 
-inline Ending run(const Mechanical& of, const std::string& scheme, double end, int steps) {
+inline Ending run(const Mechanical& of, const Discretization& scheme, double end, int steps) {
     Ending r;
     r.state = of.start;
-    const auto integrator = makeIntegrator(of.system, *namedScheme(scheme), {0, end / steps});
+    const auto integrator = makeIntegrator(of.system, scheme, {0, end / steps});
     Mechanism mechanism(of.system.parts);
     Eigen::VectorXd v = Eigen::VectorXd::Zero(of.system.dimension());
     const auto& L = of.system.mechanics();
@@ -93,8 +102,12 @@ inline Ending run(const Mechanical& of, const std::string& scheme, double end, i
         double work = 0;
         integrator->measure(r.state, &work);
         r.work += work;
+        r.impacts += static_cast<int>(integrator->impacts().size());
     }
     return r;
+}
+inline Ending run(const Mechanical& of, const std::string& scheme, double end, int steps) {
+    return run(of, *namedScheme(scheme), end, steps);
 }
 
 /// Distances of q and of p.
