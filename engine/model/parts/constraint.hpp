@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/model/parts.hpp"
+#include "engine/model/parts/entries.hpp"
 
 namespace extremal {
 
@@ -31,6 +32,20 @@ struct Constraint {
                          double* matrix) = nullptr;
     /// v^T g_qq v + 2 g_qt v + g_tt (count): what g_q a has to cancel.
     void (*rates)(const void*, double t, const double* q, const double* v, double* rates) = nullptr;
+
+    /// The same by the entries that are not always 0, where the system offers it; null else.
+    struct Entries {
+        std::vector<MatrixEntry> byPlace;  ///< (constraint, coordinate)
+        struct Second {
+            int constraint, row, column;  ///< column <= row, of d2 g / dq dq
+        };
+        std::vector<Second> curvature;
+        /// g, the entries of g_q, and g_t.
+        void (*first)(const void*, double t, const double* q, double* g, double* byPlace,
+                      double* byTime) = nullptr;
+        void (*second)(const void*, double t, const double* q, double* curvature) = nullptr;
+    };
+    std::shared_ptr<const Entries> entries = {};
 };
 
 }  // namespace extremal

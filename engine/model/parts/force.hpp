@@ -7,8 +7,10 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "engine/model/parts.hpp"
+#include "engine/model/parts/entries.hpp"
 
 namespace extremal {
 
@@ -23,6 +25,14 @@ struct Force {
     /// F, and its derivatives by q and v: d x 2d, row by row.
     void (*first)(const void*, double t, const double* q, const double* v, double* force,
                   double* derivatives) = nullptr;
+
+    /// The same by the entries that are not always 0, where the system offers it; null else.
+    struct Entries {
+        std::vector<MatrixEntry> first;  ///< (i, j): F_i by q_j, or by v_(j - d)
+        void (*values)(const void*, double t, const double* q, const double* v, double* force,
+                       double* first) = nullptr;
+    };
+    std::shared_ptr<const Entries> entries = {};
 };
 
 }  // namespace extremal

@@ -23,7 +23,10 @@ System makeLagrangian(const Settings& settings) {
     for (const std::string& name : formula.coordinates)
         s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
     s.parts.set(std::move(made.mechanics));
-    if (auto constraint = typed::constraintOf(settings, formula)) s.parts.set(*std::move(constraint));
+    if (auto constraint = typed::constraintOf(settings, formula)) {
+        s.parts.set(*std::move(constraint));
+        s.parts.set(typed::entriesOf(s.mechanics()));
+    }
     if (auto force = typed::forceOf(settings, formula)) s.parts.set(*std::move(force));
     if (auto rolling = typed::rollingOf(settings, formula)) s.parts.set(*std::move(rolling));
     if (auto wall = typed::wallOf(settings, formula)) s.parts.set(*std::move(wall));

@@ -402,7 +402,41 @@ private:
     std::shared_ptr<Model> model_ = std::make_shared<Model>();
 };
 
+/// The entries of the Hessian that are not always 0: constants, then those of `places`.
+struct EntriesModel {
+    std::shared_ptr<const void> mechanics;
+    std::vector<double> constants;
+};
+void jetEntries(const void* p, double t, const double* q, const double* v, double* gradient,
+                double* hessian) {
+    const auto& entries = *static_cast<const EntriesModel*>(p);
+    const Model& m = self(entries.mechanics.get());
+    const Registers r(m, m.jet, t, q, v);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(2 * m.d); ++i) gradient[i] = r[1 + i];
+    hessian = std::copy(entries.constants.begin(), entries.constants.end(), hessian);
+    for (const Model::Place& place : m.places) *hessian++ = r[place.output];
+}
+
 }  // namespace
+
+LagrangianEntries entriesOf(const Mechanics<double>& mechanics) {
+    const Model& m = self(mechanics.model.get());
+    const auto n = static_cast<std::size_t>(2 * m.d);
+    auto model = std::make_shared<EntriesModel>();
+    model->mechanics = mechanics.model;
+    LagrangianEntries made;
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+            if (m.hessian[i * n + j] != 0) {
+                made.hessian.push_back({static_cast<int>(i), static_cast<int>(j)});
+                model->constants.push_back(m.hessian[i * n + j]);
+            }
+    for (const Model::Place& place : m.places)
+        made.hessian.push_back({static_cast<int>(place.at / n), static_cast<int>(place.at % n)});
+    made.model = std::move(model);
+    made.jet = jetEntries;
+    return made;
+}
 
 const Landmarks* landmarksOf(const Mechanics<double>& mechanics) {
     return mechanics.jet == jet ? &self(mechanics.model.get()).landmarks : nullptr;

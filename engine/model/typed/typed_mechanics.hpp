@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/model/mechanics.hpp"
+#include "engine/model/parts/entries.hpp"
 #include "engine/model/typed/formula.hpp"
 
 namespace extremal::typed {
@@ -22,6 +23,9 @@ struct TypedMechanics {
 
 /// Throws ExpressionError.
 TypedMechanics makeMechanics(const Formula& formula);
+
+/// The same derivatives by their entries, of mechanics made above.
+LagrangianEntries entriesOf(const Mechanics<double>& mechanics);
 
 /// The terms of a Lagrangian that is typed in terms. Throws ExpressionError; `throwing`, where it is not
 /// null, is then the name of the term.

@@ -81,24 +81,45 @@ std::shared_ptr<const SymbolicLagrangian> derivatives(const Formula& formula, co
 /// The derivatives of constraints that are not 0 everywhere.
 struct ConstraintModel {
     int d = 0, count = 0;
-    Tape value, second;
+    Tape value, second;  ///< value: of each constraint g, g_t, and its entries of g_q
+    struct First {
+        int constraint, i;
+        std::size_t output;
+    };
     struct Second {
         int constraint, i, j;  ///< j <= i; d stands for time
         std::size_t output;
     };
+    std::vector<First> first;
     std::vector<Second> entries;
+    std::vector<std::size_t> values;  ///< where the outputs of each constraint begin
 };
 const ConstraintModel& constraintModel(const void* p) { return *static_cast<const ConstraintModel*>(p); }
 
 void first(const void* p, double t, const double* q, double* g, double* byPlace, double* byTime) {
     const ConstraintModel& m = constraintModel(p);
     const Run r(m.value, m.d, t, q, nullptr);
-    std::size_t next = 0;
+    std::fill_n(byPlace, m.count * m.d, 0.0);
     for (int k = 0; k < m.count; ++k) {
-        g[k] = r[next++];
-        for (int i = 0; i < m.d; ++i) byPlace[k * m.d + i] = r[next++];
-        byTime[k] = r[next++];
+        g[k] = r[m.values[at(k)]];
+        byTime[k] = r[m.values[at(k)] + 1];
     }
+    for (const ConstraintModel::First& e : m.first) byPlace[e.constraint * m.d + e.i] = r[e.output];
+}
+void firstEntries(const void* p, double t, const double* q, double* g, double* byPlace, double* byTime) {
+    const ConstraintModel& m = constraintModel(p);
+    const Run r(m.value, m.d, t, q, nullptr);
+    for (int k = 0; k < m.count; ++k) {
+        g[k] = r[m.values[at(k)]];
+        byTime[k] = r[m.values[at(k)] + 1];
+    }
+    for (std::size_t e = 0; e < m.first.size(); ++e) byPlace[e] = r[m.first[e].output];
+}
+void secondEntries(const void* p, double t, const double* q, double* curvature) {
+    const ConstraintModel& m = constraintModel(p);
+    const Run r(m.second, m.d, t, q, nullptr);
+    for (const ConstraintModel::Second& e : m.entries)
+        if (e.i != m.d) *curvature++ = r[e.output];
 }
 
 void addCurvature(const void* p, double t, const double* q, const double* lambda, double* matrix) {
@@ -144,6 +165,13 @@ void firstOfForce(const void* p, double t, const double* q, const double* v, dou
     for (int i = 0; i < m.d; ++i) f[i] = r[at(i)];
     std::fill_n(derivatives, 2 * m.d * m.d, 0.0);
     for (const ForceModel::Entry& e : m.entries) derivatives[e.i * 2 * m.d + e.j] = r[e.output];
+}
+
+void entriesOfForce(const void* p, double t, const double* q, const double* v, double* f, double* first) {
+    const ForceModel& m = forceModel(p);
+    const Run r(m.first, m.d, t, q, v);
+    for (int i = 0; i < m.d; ++i) f[i] = r[at(i)];
+    for (std::size_t e = 0; e < m.entries.size(); ++e) first[e] = r[m.entries[e].output];
 }
 
 const Value::Object& objectOf(const Settings& settings, const char* key) {
@@ -248,7 +276,14 @@ public:
         if (std::all_of(here.begin() + 1, here.begin() + 1 + d,
                         [&](int node) { return roots_.graph().isZero(node); }))
             throw InvalidScene(pointer, "no coordinate is in it, so that it constrains nothing");
-        values_.insert(values_.end(), here.begin(), here.end());
+        model_->values.push_back(values_.size());
+        values_.push_back(here.front());
+        values_.push_back(here.back());
+        for (int i = 0; i < d; ++i) {
+            if (roots_.graph().isZero(here[at(1 + i)])) continue;
+            model_->first.push_back({model_->count, i, values_.size()});
+            values_.push_back(here[at(1 + i)]);
+        }
         const std::vector<int> hessian(symbolic->hessian.begin(),
                                        symbolic->hessian.begin() + (d + 1) * (d + 2) / 2);
         const std::vector<int> curved = roots_.adopt(symbolic->graph, hessian);
@@ -371,7 +406,15 @@ std::optional<Constraint> constraintOf(const Settings& settings, const Formula& 
     Constraint made;
     made.names = relations.names();
     made.isTimeDependent = relations.isTimeDependent();
-    made.model = relations.model();
+    const std::shared_ptr<const ConstraintModel> model = relations.model();
+    auto entries = std::make_shared<Constraint::Entries>();
+    for (const ConstraintModel::First& e : model->first) entries->byPlace.push_back({e.constraint, e.i});
+    for (const ConstraintModel::Second& e : model->entries)
+        if (e.i != model->d) entries->curvature.push_back({e.constraint, e.i, e.j});
+    entries->first = firstEntries;
+    entries->second = secondEntries;
+    made.entries = std::move(entries);
+    made.model = model;
     made.first = first;
     made.addCurvature = addCurvature;
     made.rates = rates;
@@ -490,6 +533,10 @@ std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
     model->first = roots.tape(all);
     Force made;
     made.isTimeDependent = roots.graph().dependsOn(nodes.value, [d](int symbol) { return symbol == d; });
+    auto entries = std::make_shared<Force::Entries>();
+    for (const ForceModel::Entry& e : model->entries) entries->first.push_back({e.i, e.j});
+    entries->values = entriesOfForce;
+    made.entries = std::move(entries);
     made.model = std::move(model);
     made.value = force;
     made.first = firstOfForce;
