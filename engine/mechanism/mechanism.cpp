@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/core/algebra/dense.hpp"
-
 namespace extremal {
 namespace {
 
@@ -18,56 +16,32 @@ std::optional<Part> copyOf(const Parts& parts) {
     return part ? std::optional<Part>(*part) : std::nullopt;
 }
 
+std::unique_ptr<StateEquations> makeState(const Mechanics<double>& mechanics, const Conditions& conditions,
+                                          const std::optional<Force>& force,
+                                          const std::optional<LinkedParts>& linked) {
+    return linked ? linkedState(*linked) : denseState(mechanics, conditions, force);
+}
+
 }  // namespace
 
-Mechanism::Mechanism(const Parts& parts)
+std::optional<LinkedParts> linkedParts(const Parts& parts, LinkedAlgebra algebra) {
+    if (algebra == LinkedAlgebra::never) return {};
+    std::optional<LinkedParts> linked = LinkedParts::of(parts);
+    if (linked && algebra == LinkedAlgebra::automatic && !Linkage(*linked).isWorthwhile()) linked.reset();
+    return linked;
+}
+
+Mechanism::Mechanism(const Parts& parts, LinkedAlgebra algebra)
     : mechanics_(*parts.find<Mechanics<double>>()),
-      constraint_(copyOf<Constraint>(parts)),
+      conditions_(copyOf<Constraint>(parts), copyOf<Rolling>(parts), mechanics_.dimension),
       force_(copyOf<Force>(parts)),
-      rolling_(copyOf<Rolling>(parts)) {
+      linked_(linkedParts(parts, algebra)),
+      state_(makeState(mechanics_, conditions_, force_, linked_)) {
     const int d = dimension(), n = constraints();
-    lu_ = SmallLu<double>(d + n);
-    hessian_ = Rows::Zero(2 * d, 2 * d);
-    byPlace_ = Rows::Zero(n, d);
-    gradient_ = Vector::Zero(2 * d);
-    for (Vector* v : {&value_, &byTime_, &rates_}) *v = Vector::Zero(n);
-    forces_ = velocity_ = byTimeOfMomentum_ = Vector::Zero(d);
+    byTimeOfMomentum_ = sum_ = Vector::Zero(d);
+    rates_ = rate_ = Vector::Zero(n);
     rhs_ = Vector::Zero(d + n);
-    rest_ = Vector::Zero(d);
-    rollingValue_ = rollingByTime_ = Vector::Zero(n - holonomic());
-    rollingByState_ = Rows::Zero(n - holonomic(), 2 * d);
-}
-
-void Mechanism::conditions(double t, const double* q, Vector& value, Rows& byPlace, Vector& byTime) {
-    if (constraint_)
-        constraint_->first(constraint_->model.get(), t, q, value.data(), byPlace.data(), byTime.data());
-    if (!rolling_) return;
-    const int d = dimension(), n = rolling_->count();
-    rolling_->first(rolling_->model.get(), t, q, rest_.data(), rollingValue_.data(), rollingByState_.data(),
-                    rollingByTime_.data());
-    value.tail(n).setZero();
-    byPlace.bottomRows(n) = rollingByState_.rightCols(d);
-    byTime.tail(n) = rollingValue_;
-}
-
-/// L'', L', F and the first derivatives of g.
-void Mechanism::evaluate(double t, const double* q, const double* v) {
-    double value = 0;
-    mechanics_.jet(mechanics_.model.get(), t, q, v, &value, gradient_.data(), hessian_.data());
-    forces_.setZero();
-    if (force_) force_->value(force_->model.get(), t, q, v, forces_.data());
-    conditions(t, q, value_, byPlace_, byTime_);
-}
-
-/// [ L_vv, -g_q^T; g_q, 0 ] from what was evaluated last.
-bool Mechanism::factoriseSaddle() {
-    const int d = dimension(), n = constraints();
-    for (int j = 0; j < d + n; ++j) {
-        double* const column = lu_.column(j);
-        for (int i = 0; i < d; ++i) column[i] = j < d ? hessian_(d + i, d + j) : -byPlace_(j - d, i);
-        for (int k = 0; k < n; ++k) column[d + k] = j < d ? byPlace_(k, j) : 0;
-    }
-    return lu_.factorise() == SmallLu<double>::Result::regular;
+    ahead_ = Vector::Zero(2 * d);
 }
 
 bool Mechanism::accelerate(double t, const double* q, const double* v, Vector& acceleration,
@@ -76,24 +50,18 @@ bool Mechanism::accelerate(double t, const double* q, const double* v, Vector& a
     byTimeOfMomentum_.setZero();
     if (mechanics_.isTimeDependent) {
         const double apart = 1e-6 * std::max(1.0, std::abs(t));
-        mechanics_.gradient(mechanics_.model.get(), t + apart, q, v, gradient_.data());
-        byTimeOfMomentum_ = gradient_.tail(d);
-        mechanics_.gradient(mechanics_.model.get(), t - apart, q, v, gradient_.data());
-        byTimeOfMomentum_ = (byTimeOfMomentum_ - gradient_.tail(d)) / (2 * apart);
+        mechanics_.gradient(mechanics_.model.get(), t + apart, q, v, ahead_.data());
+        byTimeOfMomentum_ = ahead_.tail(d);
+        mechanics_.gradient(mechanics_.model.get(), t - apart, q, v, ahead_.data());
+        byTimeOfMomentum_ = (byTimeOfMomentum_ - ahead_.tail(d)) / (2 * apart);
     }
-    evaluate(t, q, v);
-    if (constraint_) constraint_->rates(constraint_->model.get(), t, q, v, rates_.data());
-    const Eigen::Map<const Vector> velocity(v, d);
-    if (rolling_) {
-        rolling_->first(rolling_->model.get(), t, q, v, rollingValue_.data(), rollingByState_.data(),
-                        rollingByTime_.data());
-        rates_.tail(rolling_->count()) = rollingByState_.leftCols(d) * velocity + rollingByTime_;
-    }
-    rhs_.head(d) =
-        gradient_.head(d) + forces_ - hessian_.bottomLeftCorner(d, d) * velocity - byTimeOfMomentum_;
+    state_->evaluate(t, q, v);
+    state_->rates(t, q, v, rates_);
+    state_->massRate(v, sum_);
+    rhs_.head(d) = state_->gradient().head(d) + state_->forces() - sum_ - byTimeOfMomentum_;
     rhs_.tail(n) = -rates_;
-    if (!factoriseSaddle()) return false;
-    lu_.solve(rhs_.data());
+    if (!state_->factorise()) return false;
+    state_->solve(rhs_);
     acceleration = rhs_.head(d);
     multipliers = rhs_.tail(n);
     return rhs_.allFinite();
@@ -106,15 +74,17 @@ bool Mechanism::project(double t, const double* q, double* p, Vector& v, Vector&
     if (v.size() != d) v = Vector::Zero(d);
     if (!knowsVelocity && !mechanics_.velocity(mechanics_.model.get(), t, q, p, v.data())) return false;
     if (n == 0) return true;
-    const Vector given = Eigen::Map<const Vector>(p, d);
+    given_ = Eigen::Map<const Vector>(p, d);
     // Of the velocities on the way: where they end at 0, their round-off is that of those before.
     double last = std::numeric_limits<double>::infinity(), scale = v.cwiseAbs().maxCoeff();
     for (int iteration = 0; iteration < mostIterations; ++iteration) {
-        evaluate(t, q, v.data());
-        rhs_.head(d) = given + byPlace_.transpose() * kappa - gradient_.tail(d);
-        rhs_.tail(n) = -(byPlace_ * v + byTime_);
-        if (!factoriseSaddle()) return false;
-        lu_.solve(rhs_.data());
+        state_->evaluate(t, q, v.data());
+        state_->reaction(kappa, sum_);
+        state_->rate(v.data(), rate_);
+        rhs_.head(d) = given_ + sum_ - state_->gradient().tail(d);
+        rhs_.tail(n) = -(rate_ + state_->byTime());
+        if (!state_->factorise()) return false;
+        state_->solve(rhs_);
         if (!rhs_.allFinite()) return false;
         v += rhs_.head(d);
         kappa += rhs_.tail(n);
@@ -124,40 +94,44 @@ bool Mechanism::project(double t, const double* q, double* p, Vector& v, Vector&
         if (iteration + 1 == mostIterations) return false;
         last = size;
     }
-    const Vector change = byPlace_.transpose() * kappa;
-    for (int i = 0; i < d; ++i) p[i] = given(i) + change(i);
+    state_->reaction(kappa, sum_);
+    for (int i = 0; i < d; ++i) p[i] = given_(i) + sum_(i);
     return true;
 }
 
 std::optional<double> Mechanism::strike(double t, const double* q, double* p, const double* normal,
                                         double target) {
     constexpr int mostIterations = 30;
-    const int d = dimension(), n = constraints(), size = d + n + 1;
+    const int d = dimension(), n = constraints();
     const Vector given = Eigen::Map<const Vector>(p, d);
     const Eigen::Map<const Vector> along(normal, d);
     Vector v(d);
     if (!mechanics_.velocity(mechanics_.model.get(), t, q, p, v.data())) return {};
-    Vector reactions = Vector::Zero(n + 1), residual(size);
-    Eigen::MatrixXd matrix(size, size), rows(n + 1, d);
-    double last = std::numeric_limits<double>::infinity();
+    Vector reactions = Vector::Zero(n), byImpulse(d + n);
+    double impulse = 0, last = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < mostIterations; ++iteration) {
-        evaluate(t, q, v.data());
-        rows.topRows(n) = byPlace_;
-        rows.row(n) = along.transpose();
-        matrix << hessian_.bottomRightCorner(d, d), -rows.transpose(), rows,
-            Eigen::MatrixXd::Zero(n + 1, n + 1);
-        residual.head(d) = given + rows.transpose() * reactions - gradient_.tail(d);
-        residual.segment(d, n) = -(byPlace_ * v + byTime_);
-        residual(size - 1) = target - along.dot(v);
-        const Vector change = dense::solve<double>(matrix, Eigen::MatrixXd(residual)).col(0);
-        if (!change.allFinite()) return {};
-        v += change.head(d);
-        reactions += change.tail(n + 1);
-        const double step = change.head(d).cwiseAbs().maxCoeff(), scale = v.cwiseAbs().maxCoeff();
+        state_->evaluate(t, q, v.data());
+        state_->reaction(reactions, sum_);
+        state_->rate(v.data(), rate_);
+        rhs_.head(d) = given + sum_ + impulse * along - state_->gradient().tail(d);
+        rhs_.tail(n) = -(rate_ + state_->byTime());
+        byImpulse.head(d) = along;
+        byImpulse.tail(n).setZero();
+        if (!state_->factorise()) return {};
+        state_->solve(rhs_);
+        state_->solve(byImpulse);
+        // The impulse that is missing, from the one row more.
+        const double more = (target - along.dot(v) - along.dot(rhs_.head(d))) / along.dot(byImpulse.head(d));
+        rhs_ += more * byImpulse;
+        if (!rhs_.allFinite()) return {};
+        v += rhs_.head(d);
+        reactions += rhs_.tail(n);
+        impulse += more;
+        const double step = rhs_.head(d).cwiseAbs().maxCoeff(), scale = v.cwiseAbs().maxCoeff();
         if (step <= 4 * epsilon * scale || (step >= last / 4 && step <= 1e-10 * scale)) {
-            const Vector impulse = rows.transpose() * reactions;
-            for (int i = 0; i < d; ++i) p[i] = given(i) + impulse(i);
-            return reactions(n);
+            state_->reaction(reactions, sum_);
+            for (int i = 0; i < d; ++i) p[i] = given(i) + impulse * along(i) + sum_(i);
+            return impulse;
         }
         last = step;
     }
@@ -168,14 +142,14 @@ bool Mechanism::projectPlace(double t, double* q) {
     constexpr int mostIterations = 50;
     const int d = dimension(), n = constraints();
     if (n == 0) return true;
+    const Vector atRest = Vector::Zero(d);
     double last = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < mostIterations; ++iteration) {
-        velocity_.setZero();
-        evaluate(t, q, velocity_.data());
+        state_->evaluate(t, q, atRest.data());
         rhs_.head(d).setZero();
-        rhs_.tail(n) = -value_;
-        if (!factoriseSaddle()) return false;
-        lu_.solve(rhs_.data());
+        rhs_.tail(n) = -state_->value();
+        if (!state_->factorise()) return false;
+        state_->solve(rhs_);
         if (!rhs_.allFinite()) return false;
         double scale = 0, size = 0;
         for (int i = 0; i < d; ++i) {
@@ -193,48 +167,55 @@ bool Mechanism::flow(double t, const double* q, const double* p, double* qdot, d
     const int d = dimension();
     if (!mechanics_.velocity(mechanics_.model.get(), t, q, p, qdot)) return false;
     if (constraints() == 0) {
-        mechanics_.gradient(mechanics_.model.get(), t, q, qdot, gradient_.data());
-        if (force_) force_->value(force_->model.get(), t, q, qdot, forces_.data());
-        for (int i = 0; i < d; ++i) pdot[i] = gradient_(i) + (force_ ? forces_(i) : 0);
+        mechanics_.gradient(mechanics_.model.get(), t, q, qdot, ahead_.data());
+        if (force_) force_->value(force_->model.get(), t, q, qdot, sum_.data());
+        for (int i = 0; i < d; ++i) pdot[i] = ahead_(i) + (force_ ? sum_(i) : 0);
         return true;
     }
     if (!accelerate(t, q, qdot, acceleration_, multipliers_)) return false;
-    Eigen::Map<Vector>(pdot, d) = gradient_.head(d) + forces_ + byPlace_.transpose() * multipliers_;
+    state_->reaction(multipliers_, sum_);
+    Eigen::Map<Vector>(pdot, d) = state_->gradient().head(d) + state_->forces() + sum_;
     return true;
 }
 
+void Mechanism::masses(double t, const double* q, const double* v, Vector& to) {
+    state_->evaluate(t, q, v);
+    for (int k = 0; k < dimension(); ++k) to(k) = state_->mass(k);
+}
+
+const Mechanism::Vector& Mechanism::byTime(double t, const double* q) {
+    state_->evaluateConstraint(t, q);
+    return state_->byTime();
+}
+
+void Mechanism::reaction(double t, const double* q, const Vector& lambda, Vector& to) {
+    state_->evaluateConstraint(t, q);
+    state_->reaction(lambda, to);
+}
+
 double Mechanism::largestValue(double t, const double* q) {
-    if (!constraint_) return 0;
-    conditions(t, q, value_, byPlace_, byTime_);
-    return value_.cwiseAbs().maxCoeff();
+    if (!constraint()) return 0;
+    state_->evaluateConstraint(t, q);
+    return state_->value().cwiseAbs().maxCoeff();
 }
 
 double Mechanism::largestRate(double t, const double* q, const double* v) {
     if (constraints() == 0) return 0;
-    conditions(t, q, value_, byPlace_, byTime_);
-    return (byPlace_ * Eigen::Map<const Vector>(v, dimension()) + byTime_).cwiseAbs().maxCoeff();
+    state_->evaluateConstraint(t, q);
+    state_->rate(v, rate_);
+    return (rate_ + state_->byTime()).cwiseAbs().maxCoeff();
 }
 
 Mechanism::Rank Mechanism::rank(double t, const double* q) {
     Rank found;
-    const int d = dimension(), n = constraints();
-    if (n == 0) return found;
-    velocity_.setZero();
-    evaluate(t, q, velocity_.data());
+    if (constraints() == 0) return found;
+    const Vector atRest = Vector::Zero(dimension());
+    state_->evaluate(t, q, atRest.data());
     // Rows of unit length in the metric of the mass: then the last pivot that is left of each row, once those
     // before it are taken out, tells how much of it is its own.
-    const Eigen::MatrixXd mass = hessian_.bottomRightCorner(d, d);
-    const Eigen::MatrixXd back = dense::solve<double>(mass, Eigen::MatrixXd(byPlace_.transpose()));
-    Eigen::MatrixXd gram = byPlace_ * back;
-    const Vector size = gram.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
-    gram = Eigen::MatrixXd(size.asDiagonal() * gram * size.asDiagonal());
-    for (int k = 0; k < n; ++k) {
-        // Cholesky without pivoting, so that it is the later constraint that is named.
-        for (int j = 0; j < k; ++j)
-            if (gram(j, j) > 0) gram.row(k).tail(n - j) -= gram(k, j) / gram(j, j) * gram.row(j).tail(n - j);
-        const double own = std::sqrt(std::max(0.0, gram(k, k)));
-        if (own < found.ratio) found = {own, k};
-    }
+    const Vector own = state_->ownParts();
+    for (int k = 0; k < constraints(); ++k)
+        if (own(k) < found.ratio) found = {own(k), k};
     return found;
 }
 

@@ -22,14 +22,22 @@
 #include <optional>
 #include <string>
 
+#include "engine/mechanism/conditions.hpp"
+#include "engine/mechanism/own_copy.hpp"
+#include "engine/mechanism/state_equations.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
 #include "engine/model/parts/rolling.hpp"
 #include "engine/model/parts/wall.hpp"
-#include "engine/solve/small_lu.hpp"
 
 namespace extremal {
+
+/// By entries and in blocks (linkage.hpp) where that is less work, wherever it can be, or nowhere.
+enum class LinkedAlgebra { automatic, always, never };
+
+/// The parts by their entries where these are what a mechanism is to be solved by.
+std::optional<LinkedParts> linkedParts(const Parts& parts, LinkedAlgebra algebra);
 
 class Mechanism {
 public:
@@ -37,27 +45,28 @@ public:
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
     /// The parts of a system with coordinates that move it.
-    explicit Mechanism(const Parts& parts);
+    explicit Mechanism(const Parts& parts, LinkedAlgebra algebra = LinkedAlgebra::automatic);
     /// Whether there is more in it than a Lagrangian.
     static bool isOne(const Parts& parts) {
         return parts.find<Constraint>() || parts.find<Force>() || parts.find<Rolling>() || parts.find<Wall>();
     }
 
     const Mechanics<double>& mechanics() const { return mechanics_; }
-    const std::optional<Constraint>& constraint() const { return constraint_; }
+    const std::optional<Constraint>& constraint() const { return conditions_.constraint; }
     const std::optional<Force>& force() const { return force_; }
+    /// Set where its matrices are in blocks.
+    const std::optional<LinkedParts>& linked() const { return linked_; }
     int dimension() const { return mechanics_.dimension; }
-    const std::optional<Rolling>& rolling() const { return rolling_; }
+    const std::optional<Rolling>& rolling() const { return conditions_.rolling; }
     /// How many of the rows are constraints, and how many there are in all.
-    int holonomic() const { return constraint_ ? constraint_->count() : 0; }
-    int constraints() const { return holonomic() + (rolling_ ? rolling_->count() : 0); }
-    const std::string& nameOf(int row) const {
-        return row < holonomic() ? constraint_->names[static_cast<std::size_t>(row)]
-                                 : rolling_->names[static_cast<std::size_t>(row - holonomic())];
-    }
+    int holonomic() const { return conditions_.holonomic(); }
+    int constraints() const { return conditions_.count(); }
+    const std::string& nameOf(int row) const { return conditions_.nameOf(row); }
 
     /// The rows at (t, q): g with 0 for rolling conditions, [g_q; a], [g_t; -b].
-    void conditions(double t, const double* q, Vector& value, Rows& byPlace, Vector& byTime);
+    void conditions(double t, const double* q, Vector& value, Rows& byPlace, Vector& byTime) {
+        conditions_.evaluate(t, q, value, byPlace, byTime);
+    }
 
     /// Acceleration and multipliers at (t, q, v). False where they are not determined.
     bool accelerate(double t, const double* q, const double* v, Vector& acceleration, Vector& multipliers);
@@ -73,7 +82,12 @@ public:
     /// qdot = v and pdot = L_q + F + g_q^T lambda, of a state that need not be on the constraint.
     bool flow(double t, const double* q, const double* p, double* qdot, double* pdot);
     /// L_vv(k, k) where accelerate() was asked last.
-    double mass(int k) const { return hessian_(dimension() + k, dimension() + k); }
+    double mass(int k) const { return state_->mass(k); }
+    /// The diagonal of L_vv at a state.
+    void masses(double t, const double* q, const double* v, Vector& to);
+    /// g_q^T lambda and g_t at a place.
+    void reaction(double t, const double* q, const Vector& lambda, Vector& to);
+    const Vector& byTime(double t, const double* q);
     /// The largest |g_k| at (t, q), and the largest |g_q v + g_t| and |a v - b|.
     double largestValue(double t, const double* q);
     double largestRate(double t, const double* q, const double* v);
@@ -86,19 +100,13 @@ public:
     Rank rank(double t, const double* q);
 
 private:
-    bool factoriseSaddle();
-    void evaluate(double t, const double* q, const double* v);
-
     Mechanics<double> mechanics_;
-    std::optional<Constraint> constraint_;
+    Conditions conditions_;
     std::optional<Force> force_;
-    std::optional<Rolling> rolling_;
-    SmallLu<double> lu_;
-    Rows hessian_, byPlace_;
-    Vector gradient_, value_, byTime_, rates_, forces_, rhs_, velocity_, acceleration_, multipliers_;
-    Vector byTimeOfMomentum_;                     ///< L_vt
-    Vector rollingValue_, rollingByTime_, rest_;  ///< r and r_t; no velocities
-    Rows rollingByState_;
+    std::optional<LinkedParts> linked_;
+    OwnCopy<StateEquations> state_;
+    Vector rates_, rate_, rhs_, sum_, given_, acceleration_, multipliers_;
+    Vector ahead_, byTimeOfMomentum_;  ///< L' at another time; L_vt
 };
 
 }  // namespace extremal

@@ -6,14 +6,14 @@
 /// Unknowns and rows function by function: Y_a(i) at a d + i, Lambda_j(k) at m d + j n + k, R_a(i) and C_j(k)
 /// likewise. Further rows come behind these.
 ///
-/// What is full and what is sparse in them is the choice of an implementation (dense_equations.hpp). Buffers
-/// are made in the constructor.
+/// One implementation has full matrices (dense_equations.hpp), another the entries that are not always 0, in
+/// blocks (linked_equations.hpp). Both have their buffers from the constructor.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <memory>
-#include <utility>
+#include <string>
 
 #include "engine/mechanism/mechanism_curve.hpp"
 #include "engine/solve/small_lu.hpp"
@@ -37,30 +37,11 @@ public:
     /// The matrix there, and its solution in place of a right-hand side.
     virtual Factors factorise() = 0;
     virtual void solve(Vector& x) const = 0;
+    /// How, where that was a choice.
+    virtual std::string about() const { return {}; }
 
 protected:
     Vector residual_, impulse_;
-};
-
-/// A pointer whose copies have an object of their own.
-template <class T>
-class OwnCopy {
-public:
-    OwnCopy() = default;
-    explicit OwnCopy(std::unique_ptr<T> object) : object_(std::move(object)) {}
-    OwnCopy(const OwnCopy& other) : object_(other.object_ ? other.object_->clone() : nullptr) {}
-    OwnCopy(OwnCopy&&) noexcept = default;
-    OwnCopy& operator=(OwnCopy other) noexcept {
-        object_ = std::move(other.object_);
-        return *this;
-    }
-    ~OwnCopy() = default;
-    explicit operator bool() const { return static_cast<bool>(object_); }
-    T* operator->() const { return object_.get(); }
-    T& operator*() const { return *object_; }
-
-private:
-    std::unique_ptr<T> object_;
 };
 
 }  // namespace extremal

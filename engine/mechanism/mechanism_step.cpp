@@ -9,6 +9,7 @@
 
 #include "engine/core/algebra/exact_sum.hpp"
 #include "engine/mechanism/dense_equations.hpp"
+#include "engine/mechanism/linked_equations.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/mechanism/mechanism_curve.hpp"
 #include "engine/mechanism/mechanism_equations.hpp"
@@ -18,15 +19,15 @@ namespace extremal {
 namespace {
 
 using Vector = Eigen::VectorXd;
-using Rows = Mechanism::Rows;
 
 class MechanismStep final : public Integrator {
 public:
     MechanismStep(const Parts& parts, const Table<double>& table, const std::optional<Rule<double>>& forces,
-                  double step, const SolverPolicy& policy)
-        : mechanism_(parts),
+                  double step, const SolverPolicy& policy, LinkedAlgebra algebra)
+        : mechanism_(parts, algebra),
           curve_(table, forces, mechanism_.dimension()),
-          equations_(denseEquations(mechanism_, curve_)),
+          equations_(mechanism_.linked() ? linkedEquations(*mechanism_.linked(), curve_)
+                                         : denseEquations(mechanism_, curve_)),
           policy_(policy),
           tolerance_(toleranceOf<double>(policy)),
           h_(step) {
@@ -35,11 +36,9 @@ public:
         impulses_ = Vector::Zero(m * n);
         residual_ = Vector::Zero(m * (d + n));
         z_ = Vector::Zero((m + 1) * d);
-        p0_ = velocity_ = q1_ = p1_ = carryQ_ = carryP_ = endVelocity_ = masses_ = Vector::Zero(d);
+        p0_ = velocity_ = q1_ = p1_ = carryQ_ = carryP_ = endVelocity_ = masses_ = startMasses_ =
+            Vector::Zero(d);
         forces_ = Vector::Zero(d);
-        byPlace_ = Rows::Zero(n, d);
-        value_ = byTime_ = Vector::Zero(n);
-        jetHessian_ = Rows::Zero(2 * d, 2 * d);
     }
 
     double stepSize() const override { return h_; }
@@ -114,6 +113,8 @@ public:
         values[0] = workOfForces() + workOfConstraints();
     }
 
+    std::string about() const override { return equations_->about(); }
+
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<MechanismStep>(*this); }
     bool checkpoint(Archive& archive) override {
         archive(carryQ_, carryP_, q1_, p1_);
@@ -163,6 +164,7 @@ private:
         ++report_.cost.linearSolves;
         if (!mechanism_.accelerate(start_, z_.data(), velocity_.data(), acceleration_, multipliers_))
             return false;
+        for (int k = 0; k < d; ++k) startMasses_(k) = mechanism_.mass(k);
         for (int a = 0; a < m; ++a) {
             auto Y = Y_.segment(a * d, d);
             Y.setZero();
@@ -189,7 +191,7 @@ private:
         const double roundOff = std::numeric_limits<double>::epsilon();
         double change = 0, increments = 0;
         for (int k = 0; k < d; ++k) {
-            const double root = std::sqrt(std::abs(mechanism_.mass(k)));
+            const double root = std::sqrt(std::abs(startMasses_(k)));
             for (int a = 0; a < curve_.unknowns(); ++a) {
                 change = std::max(change, root * std::abs(residual_(a * d + k)));
                 increments = std::max(increments, root * std::abs(Y_(a * d + k)));
@@ -210,14 +212,8 @@ private:
     }
 
     void findMasses(double h) {
-        const int d = dimension();
-        const auto& L = mechanism_.mechanics();
-        double value = 0;
-        velocity_ = Y_.tail(d) / h;
-        Vector gradient(2 * d);
-        L.jet(L.model.get(), start_, z_.data(), velocity_.data(), &value, gradient.data(),
-              jetHessian_.data());
-        masses_ = jetHessian_.diagonal().tail(d);
+        velocity_ = Y_.tail(dimension()) / h;
+        mechanism_.masses(start_, z_.data(), velocity_.data(), masses_);
     }
 
     Outcome newton(double h) {
@@ -267,8 +263,7 @@ private:
             endVelocity_.setZero();
             for (int a = 0; a < m; ++a) endVelocity_ += curve_.endSlope(0, a) / h_ * Y_.segment(a * d, d);
             if (!mechanism_.project(end, q1_.data(), p1_.data(), endVelocity_, kappa_, true)) return false;
-            mechanism_.conditions(end, q1_.data(), value_, byPlace_, byTime_);
-            forces_ = byPlace_.transpose() * kappa_;
+            mechanism_.reaction(end, q1_.data(), kappa_, forces_);
         } else {
             forces_.setZero();
         }
@@ -299,12 +294,11 @@ private:
             return 0;
         Mechanism mechanism = mechanism_;  // its buffers
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
-        Vector q(d), value(n), byTime(n);
-        Rows byPlace(n, d);
+        Vector q(d);
         double sum = 0;
         for (int j = 0; j <= m; ++j) {
             curve_.placeAt(z_, j, q);
-            mechanism.conditions(start_ + curve_.place(j) * h_, q.data(), value, byPlace, byTime);
+            const Vector& byTime = mechanism.byTime(start_ + curve_.place(j) * h_, q.data());
             sum -= byTime.dot(j < m ? Vector(impulses_.segment(j * n, n)) : kappa_);
         }
         return sum;
@@ -318,9 +312,8 @@ private:
     Vector Y_, impulses_, residual_;         ///< impulses_: Lambda_j, j < m
     Vector z_;                               ///< (q_0, Y)
     Vector p0_, q1_, p1_, carryQ_, carryP_;  ///< carries: lost to rounding in q_1 and p_1
-    Vector velocity_, acceleration_, multipliers_, endVelocity_, kappa_, masses_;
-    Vector forces_, value_, byTime_;
-    Rows jetHessian_, byPlace_;
+    Vector velocity_, acceleration_, multipliers_, endVelocity_, kappa_, masses_, startMasses_;
+    Vector forces_;
     double start_ = 0, nearness_ = 0;
     StepReport report_;
 };
@@ -329,8 +322,8 @@ private:
 
 std::unique_ptr<Integrator> makeMechanismStep(const Parts& parts, const Table<double>& table,
                                               const std::optional<Rule<double>>& forces, double step,
-                                              const SolverPolicy& policy) {
-    return std::make_unique<MechanismStep>(parts, table, forces, step, policy);
+                                              const SolverPolicy& policy, LinkedAlgebra algebra) {
+    return std::make_unique<MechanismStep>(parts, table, forces, step, policy, algebra);
 }
 
 }  // namespace extremal

@@ -33,6 +33,7 @@
 
 #include "engine/action/table.hpp"
 #include "engine/integrator/integrator.hpp"
+#include "engine/mechanism/mechanism.hpp"
 #include "engine/model/parts.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/solve/newton_policy.hpp"
@@ -40,10 +41,11 @@
 namespace extremal {
 
 /// `table` for a step; it must not change with the step. `forces`: their rule, where it is not that of the
-/// table. Throws InvalidScene where the space has functions
-/// that the Lobatto nodes do not tell apart.
+/// table; `algebra`: full matrices, or blocks of what is coupled. Throws InvalidScene where the space has
+/// functions that the Lobatto nodes do not tell apart.
 std::unique_ptr<Integrator> makeMechanismStep(const Parts& parts, const Table<double>& table,
                                               const std::optional<Rule<double>>& forces, double step,
-                                              const SolverPolicy& policy);
+                                              const SolverPolicy& policy,
+                                              LinkedAlgebra algebra = LinkedAlgebra::automatic);
 
 }  // namespace extremal

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/solve/block_lu.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+namespace extremal {
+namespace {
+
+/// Blocks in the order of elimination, and the later neighbours of each.
+struct Symbolic {
+    std::vector<int> order;
+    std::vector<std::vector<int>> later;
+};
+
+Symbolic eliminate(std::vector<std::set<int>> neighbours, int border) {
+    const int count = static_cast<int>(neighbours.size());
+    const auto at = [](int i) { return static_cast<std::size_t>(i); };
+    // (border or not, degree, number): of equal degrees the last goes first, as bodies are named from where
+    // they hang.
+    using Key = std::pair<std::pair<bool, std::size_t>, int>;
+    const auto key = [&](int i) { return Key{{i >= border, neighbours[at(i)].size()}, -i}; };
+    std::set<Key> waiting;
+    for (int i = 0; i < count; ++i) waiting.insert(key(i));
+    Symbolic s;
+    s.later.resize(at(count));
+    while (!waiting.empty()) {
+        const int k = -waiting.begin()->second;
+        waiting.erase(waiting.begin());
+        const std::vector<int> near(neighbours[at(k)].begin(), neighbours[at(k)].end());
+        s.order.push_back(k);
+        s.later[at(k)] = near;
+        for (const int i : near) waiting.erase(key(i));
+        for (const int i : near) {
+            neighbours[at(i)].erase(k);
+            for (const int j : near)
+                if (j != i) neighbours[at(i)].insert(j);
+        }
+        for (const int i : near) waiting.insert(key(i));
+    }
+    return s;
+}
+
+/// The factors of a block in place, with rows exchanged.
+BlockLu::Result factoriseBlock(double* a, std::size_t n, double* inverse, std::size_t* row) {
+    for (std::size_t k = 0; k < n; ++k) {
+        double* left = a + k * n;
+        std::size_t best = k;
+        double largest = std::abs(left[k]);
+        for (std::size_t i = k + 1; i < n; ++i)
+            if (const double candidate = std::abs(left[i]); candidate > largest) {
+                largest = candidate;
+                best = i;
+            }
+        if (!(largest <= std::numeric_limits<double>::max())) return BlockLu::Result::notFinite;
+        if (!(largest > 0)) return BlockLu::Result::singular;
+        row[k] = best;
+        if (best != k)
+            for (std::size_t j = 0; j < n; ++j) std::swap(a[j * n + k], a[j * n + best]);
+        inverse[k] = 1 / left[k];
+        for (std::size_t i = k + 1; i < n; ++i) left[i] *= inverse[k];
+        for (std::size_t j = k + 1; j < n; ++j) {
+            double* column = a + j * n;
+            const double factor = column[k];
+            for (std::size_t i = k + 1; i < n; ++i) column[i] -= factor * left[i];
+        }
+    }
+    return BlockLu::Result::regular;
+}
+
+void solveBlock(const double* a, std::size_t n, const double* inverse, const std::size_t* row, double* x) {
+    for (std::size_t k = 0; k < n; ++k)
+        if (row[k] != k) std::swap(x[k], x[row[k]]);
+    for (std::size_t k = 0; k < n; ++k) {
+        const double* column = a + k * n;
+        const double factor = x[k];
+        for (std::size_t i = k + 1; i < n; ++i) x[i] -= factor * column[i];
+    }
+    for (std::size_t k = n; k-- > 0;) {
+        const double* column = a + k * n;
+        const double factor = x[k] *= inverse[k];
+        for (std::size_t i = 0; i < k; ++i) x[i] -= factor * column[i];
+    }
+}
+
+/// y -= A x, columns of `rows` entries.
+void subtractProduct(const double* A, std::size_t rows, std::size_t columns, const double* x, double* y) {
+    for (std::size_t j = 0; j < columns; ++j) {
+        const double* column = A + j * rows;
+        const double factor = x[j];
+        if (factor == 0) continue;
+        for (std::size_t i = 0; i < rows; ++i) y[i] -= factor * column[i];
+    }
+}
+
+}  // namespace
+
+BlockLu::BlockLu(std::vector<std::vector<int>> blocks, const std::vector<std::pair<int, int>>& couplings,
+                 int border)
+    : blocks_(std::move(blocks)) {
+    std::size_t unknowns = 0;
+    for (const auto& block : blocks_) {
+        first_.push_back(unknowns);
+        unknowns += block.size();
+    }
+    blockOf_.resize(unknowns);
+    localOf_.resize(unknowns);
+    for (int b = 0; b < this->blocks(); ++b)
+        for (std::size_t i = 0; i < size(b); ++i) {
+            blockOf_[at(blocks_[at(b)][i])] = b;
+            localOf_[at(blocks_[at(b)][i])] = static_cast<int>(i);
+        }
+    std::vector<std::set<int>> neighbours(blocks_.size());
+    for (const auto& [i, j] : couplings)
+        if (i != j) {
+            neighbours[at(i)].insert(j);
+            neighbours[at(j)].insert(i);
+        }
+    const Symbolic s = eliminate(std::move(neighbours), border);
+    // Every entry, those that fill up included.
+    std::size_t used = 0;
+    rows_.resize(blocks_.size());
+    const auto add = [&](int i, int j) {
+        rows_[at(i)].push_back({j, used});
+        used += size(i) * size(j);
+    };
+    for (const int k : s.order) {
+        add(k, k);
+        for (const int j : s.later[at(k)]) {
+            add(k, j);
+            add(j, k);
+        }
+    }
+    for (auto& row : rows_) std::sort(row.begin(), row.end());
+    for (const int k : s.order) {
+        Elimination e{k, entry(k, k), {}, {}};
+        const double n = static_cast<double>(size(k));
+        work_ += n * n * n / 3;
+        for (const int j : s.later[at(k)]) {
+            e.neighbours.push_back({j, entry(j, k), entry(k, j)});
+            work_ += n * n * static_cast<double>(size(j));
+        }
+        for (const Neighbour& i : e.neighbours)
+            for (const Neighbour& j : e.neighbours) {
+                e.updates.push_back(
+                    {i.below, j.beside, entry(i.block, j.block), size(i.block), size(j.block)});
+                work_ += static_cast<double>(size(i.block) * size(j.block)) * n;
+            }
+        order_.push_back(std::move(e));
+    }
+    values_.assign(used, 0);
+    inverse_.assign(unknowns, 0);
+    exchanged_.assign(unknowns, 0);
+    right_.assign(unknowns, 0);
+}
+
+std::size_t BlockLu::entry(int row, int column) const {
+    const auto& entries = rows_[at(row)];
+    const auto found = std::lower_bound(entries.begin(), entries.end(), std::pair(column, std::size_t{0}));
+    if (found == entries.end() || found->first != column)
+        throw std::logic_error("an entry between blocks that are not coupled");
+    return found->second;
+}
+
+std::size_t BlockLu::place(int row, int column) const {
+    const int i = blockOf_[at(row)], j = blockOf_[at(column)];
+    return entry(i, j) + at(localOf_[at(column)]) * size(i) + at(localOf_[at(row)]);
+}
+
+void BlockLu::clear() { std::fill(values_.begin(), values_.end(), 0.0); }
+
+std::size_t BlockLu::largest() const {
+    std::size_t most = 0;
+    for (const auto& block : blocks_) most = std::max(most, block.size());
+    return most;
+}
+
+BlockLu::Result BlockLu::factorise() {
+    double* const v = values_.data();
+    for (const Elimination& e : order_) {
+        const std::size_t n = size(e.block), f = first_[at(e.block)];
+        const Result result = factoriseBlock(v + e.diagonal, n, &inverse_[f], &exchanged_[f]);
+        if (result != Result::regular) return result;
+        for (const Neighbour& j : e.neighbours)
+            for (std::size_t c = 0; c < size(j.block); ++c)
+                solveBlock(v + e.diagonal, n, &inverse_[f], &exchanged_[f], v + j.beside + c * n);
+        for (const Update& u : e.updates)
+            for (std::size_t c = 0; c < u.columns; ++c)
+                subtractProduct(v + u.left, u.rows, n, v + u.right + c * n, v + u.target + c * u.rows);
+    }
+    return Result::regular;
+}
+
+void BlockLu::solve(double* x) const {
+    const double* const v = values_.data();
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        for (std::size_t i = 0; i < blocks_[b].size(); ++i) right_[first_[b] + i] = x[blocks_[b][i]];
+    for (const Elimination& e : order_) {
+        const std::size_t n = size(e.block), f = first_[at(e.block)];
+        double* const own = &right_[f];
+        solveBlock(v + e.diagonal, n, &inverse_[f], &exchanged_[f], own);
+        for (const Neighbour& j : e.neighbours)
+            subtractProduct(v + j.below, size(j.block), n, own, &right_[first_[at(j.block)]]);
+    }
+    for (auto e = order_.rbegin(); e != order_.rend(); ++e)
+        for (const Neighbour& j : e->neighbours)
+            subtractProduct(v + j.beside, size(e->block), size(j.block), &right_[first_[at(j.block)]],
+                            &right_[first_[at(e->block)]]);
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        for (std::size_t i = 0; i < blocks_[b].size(); ++i) x[blocks_[b][i]] = right_[first_[b] + i];
+}
+
+}  // namespace extremal
