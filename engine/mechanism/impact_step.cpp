@@ -367,7 +367,7 @@ private:
             for (std::size_t i = known; i < impacts_.size(); ++i) {
                 if (work_ >= 0) sums_[static_cast<std::size_t>(work_)] -= impacts_[i].energyLoss;
                 const auto end = rhythm_[static_cast<std::size_t>(impacts_[i].wall)].end();
-                if (end && std::abs(*end - s.t) < std::abs(h_)) return fail(Outcome::accumulation, *end);
+                if (end && (until - *end) * ahead() >= 0) return fail(Outcome::accumulation, *end);
             }
             const double rest = until - s.t;
             if (!(rest * ahead() > 4 * unitRoundOff * std::abs(until))) {

@@ -6,9 +6,9 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/model/system.hpp"
+#include "engine/model/typed/parts/typed_parts.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
 #include "engine/model/typed/typed_model.hpp"
-#include "engine/model/typed/typed_parts.hpp"
 #include "engine/model/typed/typed_picture.hpp"
 #include "engine/model/typed/typeset.hpp"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "engine/core/text/text.hpp"
-#include "engine/model/typed/controls.hpp"
+#include "engine/model/typed/parts/controls.hpp"
 
 namespace extremal::typed {
 namespace {

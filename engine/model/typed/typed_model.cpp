@@ -5,7 +5,7 @@
 #include <set>
 
 #include "engine/core/problem.hpp"
-#include "engine/model/typed/controls.hpp"
+#include "engine/model/typed/parts/controls.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/typeset.hpp"
 

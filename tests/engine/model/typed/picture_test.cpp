@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/model/typed/typed_parts.hpp"
+#include "engine/model/typed/parts/typed_parts.hpp"
 #include "engine/model/typed/typed_picture.hpp"
 #include "tests/tools/test.hpp"
 

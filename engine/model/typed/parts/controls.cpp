@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/typed/controls.hpp"
+#include "engine/model/typed/parts/controls.hpp"
 
 #include <algorithm>
 #include <cmath>

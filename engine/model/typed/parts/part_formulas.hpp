@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What the parts that a user types have in common: formulas with time as one more name, differentiated, in
+/// one graph and evaluated by one tape. Internal to engine/model/typed.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/settings.hpp"
+#include "engine/model/typed/formula.hpp"
+#include "engine/model/typed/symbolic.hpp"
+#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape_registers.hpp"
+
+namespace extremal::typed {
+
+inline std::size_t placeOf(int i) { return static_cast<std::size_t>(i); }
+
+/// The names with time as one more coordinate, so that derivatives by it are found as those by the others.
+/// Symbols: q_i: i,  t: d,  v_i: d + 1 + i,  the rate of t: 2d + 1.
+Formula withTime(const Formula& formula, const std::string& text);
+
+/// Roots of several formulas in one graph, with numbers in place of parameters.
+class Roots {
+public:
+    explicit Roots(const Formula& withTime) : formula_(withTime) {}
+
+    /// The nodes of a graph here.
+    std::vector<int> adopt(const Graph& from, const std::vector<int>& nodes) {
+        return graph_.adopt(from, nodes, [&](int symbol) -> std::optional<double> {
+            const int k = symbol - formula_.firstParameter();
+            if (k < 0) return {};
+            return formula_.parameters[placeOf(k)].second;
+        });
+    }
+    Graph& graph() { return graph_; }
+    Tape tape(const std::vector<int>& roots) const {
+        return Tape::of(graph_, roots, 2 * formula_.dimension());
+    }
+
+private:
+    const Formula& formula_;
+    Graph graph_;
+};
+
+/// One evaluation of a tape at (q, t, v); v may be null.
+class Run : public TapeRegisters {
+public:
+    Run(const Tape& tape, int d, double t, const double* q, const double* v)
+        : TapeRegisters(tape, [&](double* r) {
+              std::copy_n(q, d, r);
+              r[d] = t;
+              if (v)
+                  std::copy_n(v, d, r + d + 1);
+              else
+                  std::fill_n(r + d + 1, d, 0.0);
+              r[2 * d + 1] = 1;
+          }) {}
+};
+
+/// differentiate() with what is wrong as a problem of the scene.
+std::shared_ptr<const SymbolicLagrangian> derivativesOf(const Formula& formula, const std::string& pointer);
+
+/// The formulas by name under a key of the model; empty where there are none.
+const Value::Object& formulasUnder(const Settings& settings, const char* key);
+
+/// Time has no rate among the names.
+void requireNoRateOfTime(const Formula& own, const std::string& pointer);
+
+}  // namespace extremal::typed
