@@ -186,16 +186,21 @@ private:
 
     /// The correction against the increments, all coordinates together: one that turns back has increments
     /// of almost nothing.
+    double changeInMassMetric() const {
+        double change = 0;
+        for (int k = 0; k < dimension(); ++k)
+            for (int a = 0; a < curve_.unknowns(); ++a)
+                change = std::max(
+                    change, std::sqrt(std::abs(startMasses_(k))) * std::abs(residual_(a * dimension() + k)));
+        return change;
+    }
     double sizeInMassMetric() const {
-        const int d = dimension();
-        const double roundOff = std::numeric_limits<double>::epsilon();
-        double change = 0, increments = 0;
-        for (int k = 0; k < d; ++k) {
+        const double roundOff = std::numeric_limits<double>::epsilon(), change = changeInMassMetric();
+        double increments = 0;
+        for (int k = 0; k < dimension(); ++k) {
             const double root = std::sqrt(std::abs(startMasses_(k)));
-            for (int a = 0; a < curve_.unknowns(); ++a) {
-                change = std::max(change, root * std::abs(residual_(a * d + k)));
-                increments = std::max(increments, root * std::abs(Y_(a * d + k)));
-            }
+            for (int a = 0; a < curve_.unknowns(); ++a)
+                increments = std::max(increments, root * std::abs(Y_(a * dimension() + k)));
             increments = std::max(increments, 100 * roundOff * root * std::abs(z_(k)));
         }
         return change > 0 ? change / increments : 0;
@@ -221,6 +226,7 @@ private:
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
         const auto limits = NewtonLimits<double>::elementStep(tolerance_);
         NewtonPolicy<double> policy(limits);
+        double firstChange = 0;
         for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
             if (stop().stop_requested()) return Outcome::stopped;
             if (!evaluate(h)) return Outcome::notFinite;
@@ -237,7 +243,14 @@ private:
                 size = std::max(size, relativeCorrection(c.change, c.increments, c.value));
             }
             report_.residual = size;
-            if (iteration == 0) nearness_ = sizeInMassMetric();
+            // Of equations that are nearly linear on the way there is one root, however far the start was
+            // from it.
+            if (iteration <= 1) {
+                constexpr double linear = 0.02;
+                const double near = sizeInMassMetric(), change = changeInMassMetric();
+                if (iteration == 0 || change <= linear * firstChange) nearness_ = near;
+                if (iteration == 0) firstChange = change;
+            }
             const Verdict verdict = policy.judge(size, [&] {
                 findMasses(h);
                 return measureCorrection<double>(d, [&](int k) { return correctionOf(k, h); });

@@ -127,10 +127,12 @@ private slots:
         for (const char* name : {"elastic", "inelastic", "ellipse", "ball on a rod"}) {
             QTest::addRow("%s, midpoint", name) << name << "galerkin-gauss-1" << 2 << 320;
             QTest::addRow("%s, Gauss 2", name) << name << "galerkin-gauss-2" << 4 << 80;
-            QTest::addRow("%s, Lobatto 2", name) << name << "galerkin-lobatto-2" << 4 << 80;
             QTest::addRow("%s, Gauss 3", name) << name << "galerkin-gauss-3" << 6 << 40;
-            QTest::addRow("%s, Gauss 4", name) << name << "galerkin-gauss-4" << 8 << 13;
+            QTest::addRow("%s, Gauss 4", name) << name << "galerkin-gauss-4" << 8 << 16;
         }
+        // At the post the errors of Lobatto 2 nearly cancel.
+        for (const char* name : {"ellipse", "ball on a rod"})
+            QTest::addRow("%s, Lobatto 2", name) << name << "galerkin-lobatto-2" << 4 << 80;
     }
     void orders() {
         QFETCH(QString, name);
@@ -156,8 +158,9 @@ private slots:
         const double q = std::log2(coarse.q / fine.q), p = std::log2(coarse.p / fine.p);
         qInfo("errors of q %.1e, of p %.1e; orders %.2f, %.2f; %d impacts", fine.q, fine.p, q, p, impacts);
         QVERIFY(impacts >= 1);
-        QVERIFY(std::abs(q - order) < 0.4);
-        QVERIFY(std::abs(p - order) < 0.4);
+        const double tolerance = order < 8 ? 0.4 : 0.9;  // long steps for the errors to be above round-off
+        QVERIFY(std::abs(q - order) < tolerance);
+        QVERIFY(std::abs(p - order) < tolerance);
     }
     /// A billiard in an ellipse keeps the energy and the product of the angular momenta about the foci.
     void billiard() {
