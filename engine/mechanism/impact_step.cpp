@@ -246,7 +246,7 @@ private:
         Crossing best = found;
         for (int k = 0; k < n; ++k) {
             const double before = row[k - n], after = row[k];
-            if (isGrazed_[static_cast<std::size_t>(k)] || !(after < 0)) continue;
+            if (isGrazed_[static_cast<std::size_t>(k)] || !(after < -roundOff(k, at_.x.data()))) continue;
             const double part = before > 0 ? before / (before - after) : 0;
             if (part < least) {
                 least = part;

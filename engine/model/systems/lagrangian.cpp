@@ -11,6 +11,7 @@
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typed_picture.hpp"
 #include "engine/model/typed/typeset.hpp"
+#include "engine/model/typed/wall_outlines.hpp"
 
 namespace extremal::systems {
 namespace {
@@ -36,7 +37,9 @@ System makeLagrangian(const Settings& settings) {
         s.momenta.push_back({formula.coordinates[k], "p_" + typed::symbolOf(formula.coordinates[k]), "",
                              [k](const double*, const double* p) { return p[k]; }});
     }
-    const typed::Picture picture = typed::pictureOf(formula, s.parts.find<Constraint>());
+    typed::Picture picture = typed::pictureOf(formula, s.parts.find<Constraint>());
+    if (const Wall* const wall = s.parts.find<Wall>())
+        picture = typed::withWalls(std::move(picture), *wall, typed::planesOf(formula), formula.dimension());
     s.draw = picture.draw;
     s.isSpatial = picture.isSpatial;
     const std::string& first = formula.coordinates[0];

@@ -232,4 +232,12 @@ Picture pictureOf(const Formula& formula, const Constraint* constraint) {
     return point(names.size());
 }
 
+std::vector<std::pair<int, int>> planesOf(const Formula& formula) {
+    std::vector<std::pair<int, int>> planes;
+    if (const auto found = bodiesOf(formula.coordinates))
+        for (const TypedBody& body : *found)
+            if (body.x >= 0 && body.y >= 0 && body.z < 0) planes.emplace_back(body.x, body.y);
+    return planes;
+}
+
 }  // namespace extremal::typed

@@ -17,6 +17,8 @@
 #pragma once
 
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "engine/model/drawing.hpp"
 #include "engine/model/parts/constraint.hpp"
@@ -33,5 +35,8 @@ struct Picture {
 
 /// `constraint`: null for a Lagrangian alone.
 Picture pictureOf(const Formula& formula, const Constraint* constraint = nullptr);
+
+/// The coordinates x and y of the bodies that a formula is about.
+std::vector<std::pair<int, int>> planesOf(const Formula& formula);
 
 }  // namespace extremal::typed

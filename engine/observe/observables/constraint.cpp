@@ -24,17 +24,20 @@ ObservableEntry constraint() {
     };
     e.bind = [](const ObserveContext& context) {
         Observer o;
-        o.columns = {{"constraint", "max |g|", "", {}, {}}, {"constraint_velocity", "max |ġ|", "", {}, {}}};
+        // Without a relation of places the first column is that of velocities as well.
+        const bool hasPlaces = context.system.parts.find<Constraint>() != nullptr;
+        o.columns = {{"constraint", hasPlaces ? "max |g|" : "max |a v - b|", "", {}, {}},
+                     {"constraint_velocity", "max |ġ|", "", {}, {}}};
         o.extreme = 0;
-        o.evaluate = [mechanism = Mechanism(context.system.parts),
+        o.evaluate = [hasPlaces, mechanism = Mechanism(context.system.parts),
                       v = Eigen::VectorXd(Eigen::VectorXd::Zero(context.system.dimension()))](
                          const State& state, const StepReport&, double* values) mutable {
             const auto& L = mechanism.mechanics();
             const double *q = state.x.data(), *p = q + mechanism.dimension();
-            values[0] = mechanism.largestValue(state.t, q);
             const bool hasVelocity = L.velocity(L.model.get(), state.t, q, p, v.data());
             values[1] = hasVelocity ? mechanism.largestRate(state.t, q, v.data())
                                     : std::numeric_limits<double>::quiet_NaN();
+            values[0] = hasPlaces ? mechanism.largestValue(state.t, q) : values[1];
         };
         return o;
     };

@@ -10,7 +10,7 @@ ViewEntry constraint() {
     return {
         .item = viewItem("constraint", "Distance from the constraints",
                          "largest |g| of every scheme against time or steps, logarithmic", {againstField()}),
-        .recipe = ErrorAgainstTime{"constraint", "max |g|"},
+        .recipe = ErrorAgainstTime{"constraint", "max |g|, |a v − b|"},
         .scales = logAgainstTime,
         .observable = "constraint",
         .takes = mechanisms()};
