@@ -51,6 +51,7 @@ public:
         byPlace_.resize(n * d);
         rhythm_.resize(n);
         isGrazed_.assign(n, false);
+        openUntil_.assign(n, 0);
         samples_.resize(n * static_cast<std::size_t>(places_ + 1));
         velocity_.resize(d);
         at_.x.resize(2 * d);
@@ -76,6 +77,7 @@ public:
           velocity_(other.velocity_),
           values_(other.values_),
           sums_(other.sums_),
+          openUntil_(other.openUntil_),
           isGrazed_(other.isGrazed_),
           rhythm_(other.rhythm_),
           impacts_(other.impacts_),
@@ -104,13 +106,15 @@ public:
         inner_->setStep(h_);
         pieces_.clear();
         impacts_.clear();
+        std::fill(openUntil_.begin(), openUntil_.end(), 0.0);
         before_ = state;
         findGaps(state.t, state.x.data());
         for (int k = 0; k < wall_.count(); ++k)
             if (gap(k) > roundOff(k, state.x.data())) isGrazed_[static_cast<std::size_t>(k)] = false;
         if (mustStrike(state)) return advanceWithImpacts(state, until, StepReport{});
         StepReport report = inner_->advance(state, until);
-        if (report.outcome != Outcome::converged || !firstCrossing(before_, h_)) return report;
+        if (report.outcome != Outcome::converged || (!firstCrossing(before_, h_) && !isInside(state)))
+            return report;
         state = before_;
         return advanceWithImpacts(state, until, report);
     }
@@ -217,6 +221,14 @@ private:
         return found;
     }
 
+    /// Whether a state is inside a wall that was touched without an impact: pressed there.
+    bool isInside(const State& s) {
+        findGaps(s.t, s.x.data());
+        for (int k = 0; k < wall_.count(); ++k)
+            if (gap(k) < -roundOff(k, s.x.data())) return true;
+        return false;
+    }
+
     /// The first gap that closes inside the step that `inner_` has just taken from `start`, of length h.
     std::optional<Crossing> firstCrossing(const State& start, double h) {
         const int n = wall_.count();
@@ -231,7 +243,9 @@ private:
             std::copy(gaps_.begin(), gaps_.end(), row);
             for (int k = 0; k < n; ++k) {
                 const auto wall = static_cast<std::size_t>(k);
-                if (first || isGrazed_[wall] || !(row[k] < -roundOff(k, at_.x.data()))) continue;
+                if (first || isGrazed_[wall] || tau <= openUntil_[wall] ||
+                    !(row[k] < -roundOff(k, at_.x.data())))
+                    continue;
                 first = Crossing{k, static_cast<double>(i - 1) / places_, tau};
             }
             if (first) return earliestOf(*first, start, h, row);
@@ -246,13 +260,16 @@ private:
         Crossing best = found;
         for (int k = 0; k < n; ++k) {
             const double before = row[k - n], after = row[k];
-            if (isGrazed_[static_cast<std::size_t>(k)] || !(after < -roundOff(k, at_.x.data()))) continue;
+            const auto wall = static_cast<std::size_t>(k);
+            if (isGrazed_[wall] || best.to <= openUntil_[wall] || !(after < -roundOff(k, at_.x.data())))
+                continue;
             const double part = before > 0 ? before / (before - after) : 0;
             if (part < least) {
                 least = part;
                 best.wall = k;
             }
         }
+        if (best.from > 0 && best.from <= openUntil_[static_cast<std::size_t>(best.wall)]) return best;
         for (int halvings = 0; halvings < 60; ++halvings) {
             const double tau = halvings == 0 ? best.from : best.from + (best.to - best.from) / 2;
             if (tau > 0) {
@@ -287,7 +304,7 @@ private:
     std::optional<double> contact(const State& start, const Crossing& crossing, double h,
                                   StepReport& report) {
         double low = crossing.from, high = crossing.to, alpha = (low + high) / 2;
-        bool hasClosed = false;
+        bool hasClosed = false, hasOpened = false;
         for (int iteration = 0; iteration < 100; ++iteration) {
             if (report.outcome = tryStep(start, alpha, h, report); report.outcome != Outcome::converged)
                 return {};
@@ -300,12 +317,17 @@ private:
             }
             if (std::abs(value) <= 2 * unitRoundOff * terms(crossing.wall, trial_.x.data())) return alpha;
             hasClosed = hasClosed || value < 0;
+            hasOpened = hasOpened || value > 0;
             (value > 0 ? low : high) = alpha;
             double next = alpha - value / (r->value * h);
             if (!(next > low && next < high)) next = (low + high) / 2;
             if (!(std::abs(next - alpha) > 2 * unitRoundOff * std::max(1e-3, std::abs(alpha)))) {
-                if (hasClosed) return alpha;
-                break;
+                if (!hasClosed) break;
+                if (hasOpened || low == 0) return alpha;
+                // Open there on the dense output alone.
+                high = low;
+                low = low > 1e-6 ? low / 2 : 0;
+                next = (low + high) / 2;
             }
             alpha = next;
         }
@@ -352,6 +374,7 @@ private:
         constexpr int mostImpacts = 1000;
         report.outcome = Outcome::converged;
         report.step = h_;
+        std::fill(openUntil_.begin(), openUntil_.end(), 0.0);
         std::fill(sums_.begin(), sums_.end(), 0.0);
         const double start = state.t;
         State s = state;
@@ -384,16 +407,18 @@ private:
                 if (!found) return fail(report.outcome, s.t);
                 alpha = *found;
                 if (!std::isfinite(alpha)) {  // only the dense output touches the wall
-                    isGrazed_[static_cast<std::size_t>(crossing->wall)] = true;
+                    openUntil_[static_cast<std::size_t>(crossing->wall)] = crossing->to;
                     continue;
                 }
             }
             if (!crossing) {
+                if (isInside(trial_)) return fail(Outcome::accumulation, s.t);
                 trial_.t = until;
                 keepPiece(from, 1, trial_);
                 s = trial_;
                 break;
             }
+            std::fill(openUntil_.begin(), openUntil_.end(), 0.0);
             const double to = (trial_.t - start) / (until - start);
             keepPiece(from, to, trial_);
             from = to;
@@ -417,6 +442,8 @@ private:
     double fastest_ = 0;  ///< the largest |v_i| that a wall has seen
     int work_ = -1;       ///< which quantity of the scheme is its work; -1: it does not say
     std::vector<double> gaps_, byPlace_, byTime_, samples_, velocity_, values_, sums_;
+    std::vector<double>
+        openUntil_;  ///< part of the step at hand up to which the scheme's own steps stay outside
     std::vector<bool> isGrazed_;  ///< touched without an impact, and not left since
     std::vector<Rhythm> rhythm_;
     std::vector<Impact> impacts_;  ///< of the last step

@@ -119,6 +119,9 @@ std::unique_ptr<Integrator> mechanismStep(const System& system, const Discretiza
 
 void checkMechanism(const SchemeCase& scheme, Findings& findings) {
     constexpr double stiff = 10;
+    if (scheme.isComposed && scheme.system.parts.find<Wall>())
+        findings.error("/composition", "loses its order at impacts, where the error of its steps jumps",
+                       "the scheme alone, or a higher degree");
     const Force* const force = scheme.system.parts.find<Force>();
     if (!force) return;
     const auto own = ruleOfForces(scheme.discretization);

@@ -237,6 +237,40 @@ private slots:
         for (std::size_t k = 0; k < 5; ++k) QVERIFY(std::abs(r.state.x[5 + k] - (k == 4)) < 1e-14);
         QVERIFY(std::abs(r.state.x[4] - 4.6) < 1e-13);
     }
+    /// There and back over many impacts of balls that touch, in steps so long that the gap of the dense
+    /// output and that of the scheme's own steps close at different times.
+    void thereAndBackInLongSteps_data() {
+        QTest::addColumn<QString>("scheme");
+        QTest::addColumn<double>("step");
+        for (const char* scheme : {"galerkin-gauss-1", "galerkin-lobatto-1", "galerkin-gauss-2"})
+            for (const double step : {0.12, 0.16, 0.19})
+                QTest::addRow("%s, %g", scheme, step) << scheme << step;
+    }
+    void thereAndBackInLongSteps() {
+        QFETCH(QString, scheme);
+        QFETCH(double, step);
+        const Mechanical of =
+            startAt(typedWith({"a", "b", "c"}, "(a_t^2+b_t^2+c_t^2)/2 - 5*(a^2+(b-0.2)^2+(c-0.4)^2)",
+                              {{"walls", Value::Object{{"ab", "b - a - 0.2"}, {"bc", "c - b - 0.2"}}}}),
+                    {-0.5, 0.2, 0.4}, {0, 0, 0});
+        const auto forth = makeIntegrator(of.system, *namedScheme(scheme.toStdString()), {0, step}),
+                   back = makeIntegrator(of.system, *namedScheme(scheme.toStdString()), {0, -step});
+        State s = of.start;
+        int impacts = 0;
+        for (int i = 0; i < 40; ++i) {
+            QVERIFY(advance(*forth, s).outcome == Outcome::converged);
+            impacts += static_cast<int>(forth->impacts().size());
+            QVERIFY(s.x[1] - s.x[0] - 0.2 > -1e-11 && s.x[2] - s.x[1] - 0.2 > -1e-11);
+        }
+        s.node = 0;
+        for (int i = 0; i < 40; ++i) {
+            QVERIFY(advance(*back, s).outcome == Outcome::converged);
+            impacts -= static_cast<int>(back->impacts().size());
+        }
+        QCOMPARE(impacts, 0);
+        qInfo("q %.1e, p %.1e", distance(s, of.start).q, distance(s, of.start).p);
+        QVERIFY(distance(s, of.start).q < 1e-12 && distance(s, of.start).p < 1e-11);
+    }
     /// A piston that moves as sin t gives its own speed twice.
     void aWallThatMoves() {
         const Mechanical of = startAt(
