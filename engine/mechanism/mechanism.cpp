@@ -45,7 +45,7 @@ Mechanism::Mechanism(const Parts& parts, LinkedAlgebra algebra)
 }
 
 bool Mechanism::accelerate(double t, const double* q, const double* v, Vector& acceleration,
-                           Vector& multipliers) {
+                           Vector& multipliers, double feedback) {
     const int d = dimension(), n = constraints();
     byTimeOfMomentum_.setZero();
     if (mechanics_.isTimeDependent) {
@@ -60,6 +60,10 @@ bool Mechanism::accelerate(double t, const double* q, const double* v, Vector& a
     state_->massRate(v, sum_);
     rhs_.head(d) = state_->gradient().head(d) + state_->forces() - sum_ - byTimeOfMomentum_;
     rhs_.tail(n) = -rates_;
+    if (feedback > 0) {
+        state_->rate(v, rate_);
+        rhs_.tail(n) -= 2 * feedback * (rate_ + state_->byTime()) + feedback * feedback * state_->value();
+    }
     if (!state_->factorise()) return false;
     state_->solve(rhs_);
     acceleration = rhs_.head(d);
@@ -163,7 +167,8 @@ bool Mechanism::projectPlace(double t, double* q) {
     return false;
 }
 
-bool Mechanism::flow(double t, const double* q, const double* p, double* qdot, double* pdot) {
+bool Mechanism::flow(double t, const double* q, const double* p, double* qdot, double* pdot,
+                     double feedback) {
     const int d = dimension();
     if (!mechanics_.velocity(mechanics_.model.get(), t, q, p, qdot)) return false;
     if (constraints() == 0) {
@@ -172,7 +177,7 @@ bool Mechanism::flow(double t, const double* q, const double* p, double* qdot, d
         for (int i = 0; i < d; ++i) pdot[i] = ahead_(i) + (force_ ? sum_(i) : 0);
         return true;
     }
-    if (!accelerate(t, q, qdot, acceleration_, multipliers_)) return false;
+    if (!accelerate(t, q, qdot, acceleration_, multipliers_, feedback)) return false;
     state_->reaction(multipliers_, sum_);
     Eigen::Map<Vector>(pdot, d) = state_->gradient().head(d) + state_->forces() + sum_;
     return true;

@@ -68,8 +68,11 @@ public:
         conditions_.evaluate(t, q, value, byPlace, byTime);
     }
 
-    /// Acceleration and multipliers at (t, q, v). False where they are not determined.
-    bool accelerate(double t, const double* q, const double* v, Vector& acceleration, Vector& multipliers);
+    /// Acceleration and multipliers at (t, q, v). False where they are not determined. With a feedback alpha
+    /// the differentiated constraints pull back (Baumgarte): g_q a = -(..) - 2 alpha (g_q v + g_t) -
+    /// alpha^2 g.
+    bool accelerate(double t, const double* q, const double* v, Vector& acceleration, Vector& multipliers,
+                    double feedback = 0);
     /// Moves p onto the constraint and gives v; `kappa`: the multipliers that it took. v is the starting
     /// value where `knowsVelocity`. False where there is no solution.
     bool project(double t, const double* q, double* p, Vector& v, Vector& kappa, bool knowsVelocity = false);
@@ -80,7 +83,7 @@ public:
     /// no solution.
     std::optional<double> strike(double t, const double* q, double* p, const double* normal, double target);
     /// qdot = v and pdot = L_q + F + g_q^T lambda, of a state that need not be on the constraint.
-    bool flow(double t, const double* q, const double* p, double* qdot, double* pdot);
+    bool flow(double t, const double* q, const double* p, double* qdot, double* pdot, double feedback = 0);
     /// L_vv(k, k) where accelerate() was asked last.
     double mass(int k) const { return state_->mass(k); }
     /// The diagonal of L_vv at a state.
