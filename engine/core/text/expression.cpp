@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/core/text/expression_signatures.hpp"
+#include "engine/core/text/indexed.hpp"
 #include "engine/core/text/text.hpp"
 
 namespace extremal {
@@ -347,13 +348,21 @@ std::vector<std::string> Expression::names() const {
     return found;
 }
 
-Expression parseExpression(std::string_view text) {
-    if (text.size() > maxExpressionLength)
-        throw ExpressionError("is " + std::to_string(text.size()) + " characters long, the limit is " +
-                                  std::to_string(maxExpressionLength),
-                              0);
+namespace {
+
+Expression parse(std::string_view text, std::size_t most) {
+    if (text.size() > most)
+        throw ExpressionError(
+            "is " + std::to_string(text.size()) + " characters long, the limit is " + std::to_string(most),
+            0);
     return Parser(text).parse();
 }
+
+}  // namespace
+
+Expression parseExpression(std::string_view text) { return parse(text, maxExpressionLength); }
+
+Expression parseWrittenOut(std::string_view text) { return parse(text, maxExpandedLength); }
 
 double evaluate(const Expression& expression,
                 const std::function<std::optional<double>(std::string_view)>& valueOf) {

@@ -160,7 +160,7 @@ System makeFputChain(const Settings& settings) {
         s.coordinates.push_back(
             {std::to_string(i), "displacement " + std::to_string(i), "q_" + std::to_string(i), "", ""});
     Mechanics<double> mechanics = bindRuntime(model);
-    if (model.dimension() <= static_cast<int>(typed::maxCoordinates))
+    if (model.dimension() <= static_cast<int>(typed::fewCoordinates))
         mechanics.terms = [model] { return chainTerms(model); };
     s.parts.set(std::move(mechanics));
     // Every displacement has a slow part as well.

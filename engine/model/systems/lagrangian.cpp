@@ -12,12 +12,15 @@
 #include "engine/model/typed/typed_picture.hpp"
 #include "engine/model/typed/typeset.hpp"
 #include "engine/model/typed/wall_outlines.hpp"
+#include "engine/model/typed/written_out.hpp"
 
 namespace extremal::systems {
 namespace {
 
-System makeLagrangian(const Settings& settings) {
-    const typed::Formula formula = typed::formulaOf(settings);
+System makeLagrangian(const Settings& given) {
+    const Settings settings = typed::writtenOut(given);
+    typed::Formula formula = typed::formulaOf(settings);
+    formula.isExpanded = typed::hasIndices(given);
     typed::TypedMechanics made = typed::mechanicsOf(formula);
     System s;
     s.id = "lagrangian";
@@ -62,7 +65,9 @@ std::vector<FieldInfo> lagrangianFields() {
     coordinates.key = coordinates.title = "coordinates";
     coordinates.type = FieldType::names;
     coordinates.example = Value(Value::Array{"theta"});
-    coordinates.description = "Names of the coordinates, at most 64; the velocity of x is x_t or dot(x).";
+    coordinates.description =
+        "Names of the coordinates, at most 2000; the velocity of x is x_t or dot(x). x[1..n] stands for x1, "
+        "x2, ..";
     FieldInfo parameters =
         constantsField("parameters", "Constants by name; they may be expressions in each other.");
     parameters.example = Value(Value::Object{{"m", 1}, {"l", 1}, {"g", 9.81}});

@@ -32,6 +32,7 @@ Sample sampleAt(const Mechanics<double>& m, double t, const double* q, const dou
 bool isSingular(const Matrix& mass) {
     const Eigen::VectorXd largest = mass.cwiseAbs().rowwise().maxCoeff();
     if ((largest.array() == 0).any()) return true;
+    if (mass.isDiagonal(0)) return false;
     const Eigen::VectorXd scale = largest.cwiseSqrt().cwiseInverse();
     Eigen::FullPivLU<Eigen::MatrixXd> lu(scale.asDiagonal() * mass * scale.asDiagonal());
     lu.setThreshold(1e-12);

@@ -5,6 +5,7 @@
 #include <map>
 #include <string_view>
 
+#include "engine/core/text/indexed.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/parts/controls.hpp"
 
@@ -29,7 +30,9 @@ public:
     }
 
     ResolvedFormula resolve() {
-        result_.expression = withControls(parseExpression(formula_.text), formula_.controls);
+        result_.expression = withControls(
+            formula_.isExpanded ? parseWrittenOut(formula_.text) : parseExpression(formula_.text),
+            formula_.controls);
         const std::size_t count = result_.expression.nodes.size();
         result_.symbol.assign(count, -1);
         result_.constant.assign(count, std::nullopt);

@@ -17,7 +17,9 @@
 namespace extremal::typed {
 
 /// At most this many coordinates.
-inline constexpr std::size_t maxCoordinates = 64;
+inline constexpr std::size_t maxCoordinates = 2000;
+/// Up to here each is differentiated by each, and what is done for a state has room on the stack.
+inline constexpr std::size_t fewCoordinates = 64;
 
 struct Formula {
     std::vector<std::string> coordinates;
@@ -27,6 +29,8 @@ struct Formula {
     std::vector<std::pair<std::string, std::string>> terms = {};
     /// Functions of t by name (controls.hpp), which formulas may use.
     std::vector<std::pair<std::string, Expression>> controls = {};
+    /// Its texts were written out from sums and names by index (core/text/indexed.hpp), and may be long.
+    bool isExpanded = false;
 
     int dimension() const { return static_cast<int>(coordinates.size()); }
     int time() const { return 2 * dimension(); }

@@ -196,7 +196,8 @@ int Graph::lookUp(std::shared_ptr<const Interpolant> table, int order, int a) {
 }
 
 std::vector<int> Graph::adopt(const Graph& from, const std::vector<int>& roots,
-                              const std::function<std::optional<double>(int)>& valueOf) {
+                              const std::function<std::optional<double>(int)>& valueOf,
+                              const std::function<int(int)>& rename) {
     // Operands come before what uses them, so one pass over what the roots need is enough.
     std::vector<char> isNeeded(static_cast<std::size_t>(from.size()), 0);
     for (const int root : roots) isNeeded[static_cast<std::size_t>(root)] = 1;
@@ -216,7 +217,7 @@ std::vector<int> Graph::adopt(const Graph& from, const std::vector<int>& roots,
                 break;
             case Kind::symbol: {
                 const std::optional<double> value = valueOf(node.symbol);
-                made = value ? number(*value) : symbol(node.symbol);
+                made = value ? number(*value) : symbol(rename ? rename(node.symbol) : node.symbol);
                 break;
             }
             case Kind::sum:

@@ -98,8 +98,10 @@ public:
     bool isZero(int node) const { return isNumber(node) && at(node).number == 0; }
 
     /// Makes these nodes of another graph here, with numbers in place of the symbols that have one.
+    /// `rename`: another number for each of the others; empty: they keep theirs.
     std::vector<int> adopt(const Graph& from, const std::vector<int>& roots,
-                           const std::function<std::optional<double>(int symbol)>& valueOf);
+                           const std::function<std::optional<double>(int symbol)>& valueOf,
+                           const std::function<int(int symbol)>& rename = {});
 
     /// Whether any of the roots depends on a symbol that the predicate picks.
     bool dependsOn(const std::vector<int>& roots, const std::function<bool(int symbol)>& picks) const;

@@ -93,6 +93,7 @@ public:
 
     SymbolicLagrangian run() {
         const int d = formula_.dimension();
+        if (d > static_cast<int>(fewCoordinates)) return runByTerms();
         const ex L = build(static_cast<int>(resolved_.expression.nodes.size()) - 1);
         result_.value = flatten(L);
         exvector gradient, hessian;
@@ -128,6 +129,90 @@ public:
 
 private:
     static std::size_t place(int i) { return static_cast<std::size_t>(i); }
+
+    /// A part of a sum: coefficients without coordinates, times a formula.
+    struct Term {
+        int node;
+        ex coefficient;
+    };
+    /// Where there are many coordinates: of each term by those alone that are in it. Without this a chain of
+    /// N bodies would take N^3 derivatives of sums, nearly all of them 0.
+    SymbolicLagrangian runByTerms() {
+        const int d = formula_.dimension();
+        std::vector<Term> terms;
+        collect(static_cast<int>(resolved_.expression.nodes.size()) - 1, 1, terms);
+        std::vector<Graph::Operand> value;
+        std::map<int, std::vector<Graph::Operand>> gradient, hessian;
+        for (const Term& term : terms) {
+            const ex part = term.coefficient * build(term.node);
+            value.push_back({flatten(part)});
+            const std::vector<int> own = coordinatesIn(term.node);
+            for (const int i : own) {
+                const ex first = part.diff(symbol(i));
+                if (first.is_zero()) continue;
+                gradient[i].push_back({flatten(first)});
+                for (const int j : own) {
+                    if (j > i) break;
+                    const ex second = first.diff(symbol(j));
+                    if (!second.is_zero()) hessian[i * (i + 1) / 2 + j].push_back({flatten(second)});
+                }
+            }
+        }
+        Graph& graph = result_.graph;
+        const int zero = graph.number(0);
+        result_.value = graph.sum(0, value);
+        result_.gradient.assign(place(2 * d), zero);
+        result_.hessian.assign(place(d * (2 * d + 1)), zero);
+        for (const auto& [i, operands] : gradient) result_.gradient[place(i)] = graph.sum(0, operands);
+        for (const auto& [k, operands] : hessian) result_.hessian[place(k)] = graph.sum(0, operands);
+        return std::move(result_);
+    }
+    /// Down to what is no sum, through factors without coordinates.
+    void collect(int root, const ex& factor, std::vector<Term>& terms) {
+        std::vector<Term> waiting{{root, factor}};
+        while (!waiting.empty()) {
+            const Term here = waiting.back();
+            waiting.pop_back();
+            const Expression::Node& n = node(here.node);
+            const bool isConstant = resolved_.constant[place(here.node)].has_value();
+            if (isConstant || resolved_.symbol[place(here.node)] >= 0) {
+                terms.push_back(here);
+            } else if (n.kind == Operator::negate) {
+                waiting.push_back({n.left, -here.coefficient});
+            } else if (n.kind == Operator::add || n.kind == Operator::subtract) {
+                waiting.push_back({n.right, n.kind == Operator::add ? here.coefficient : -here.coefficient});
+                waiting.push_back({n.left, here.coefficient});
+            } else if (n.kind == Operator::multiply && coordinatesIn(n.left).empty()) {
+                waiting.push_back({n.right, here.coefficient * build(n.left)});
+            } else if (n.kind == Operator::multiply && coordinatesIn(n.right).empty()) {
+                waiting.push_back({n.left, here.coefficient * build(n.right)});
+            } else if (n.kind == Operator::divide && coordinatesIn(n.right).empty()) {
+                const ex below = build(n.right);
+                if (below.is_zero()) throw ExpressionError("divides by zero", n.position);
+                waiting.push_back({n.left, here.coefficient * powerOf(opaque(below), -1)});
+            } else {
+                terms.push_back(here);
+            }
+        }
+    }
+    /// Symbols of places and velocities in a part of the formula, in order.
+    std::vector<int> coordinatesIn(int root) const {
+        std::vector<int> waiting{root}, found;
+        while (!waiting.empty()) {
+            const int n = waiting.back();
+            waiting.pop_back();
+            if (const int s = resolved_.symbol[place(n)]; s >= 0) {
+                if (s < 2 * formula_.dimension()) found.push_back(s);
+                continue;
+            }
+            for (const int operand : {node(n).left, node(n).right, node(n).third})
+                if (operand >= 0) waiting.push_back(operand);
+        }
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        return found;
+    }
+
     const Leaf& symbol(int i) const { return ex_to<Leaf>(symbols_[place(i)]); }
 
     ex equation(int i, const exvector& gradient, const exvector& hessian) {

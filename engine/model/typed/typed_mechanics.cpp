@@ -31,7 +31,13 @@ struct Model {
     bool isDiagonal = false;                               ///< L_vv
     Tape value, gradient, force, jet, hessians, legendre;  ///< hessians: the outputs of `places` alone
     std::vector<double> masses;                            ///< separable
-    std::vector<double> hessian;                           ///< its constant entries in place
+    /// Its constant entries in place; empty where there are many coordinates.
+    std::vector<double> hessian;
+    struct Constant {
+        std::size_t at, mirrored;
+        double value;
+    };
+    std::vector<Constant> constants;  ///< those that are not 0
     struct Place {
         std::size_t output, at, mirrored;  ///< output of the jet's tape -> two entries of the Hessian
     };
@@ -61,7 +67,12 @@ void jet(const void* p, const double& t, const double* q, const double* v, doubl
     const auto n = static_cast<std::size_t>(2 * m.d);
     *value = r[0];
     for (std::size_t i = 0; i < n; ++i) gradient[i] = r[1 + i];
-    std::memcpy(hessian, m.hessian.data(), n * n * sizeof(double));
+    if (m.hessian.empty()) {
+        std::fill_n(hessian, n * n, 0.0);
+        for (const Model::Constant& c : m.constants) hessian[c.at] = hessian[c.mirrored] = c.value;
+    } else {
+        std::memcpy(hessian, m.hessian.data(), n * n * sizeof(double));
+    }
     for (const Model::Place& place : m.places) hessian[place.at] = hessian[place.mirrored] = r[place.output];
 }
 
@@ -148,11 +159,19 @@ bool separableVelocity(const void* p, const double&, const double*, const double
     return true;
 }
 
-/// Solves M x = b in place, M as a lower triangle; at most maxCoordinates, so nothing is allocated.
+/// Solves M x = b in place, M as a lower triangle; of few coordinates, so nothing is allocated.
 bool solveMass(int d, const double* triangle, double* x) {
+    if (d > static_cast<int>(fewCoordinates)) {
+        Eigen::MatrixXd mass(d, d);
+        for (int i = 0; i < d; ++i)
+            for (int j = 0; j <= i; ++j) mass(i, j) = mass(j, i) = *triangle++;
+        Eigen::Map<Eigen::VectorXd> b(x, d);
+        b = mass.partialPivLu().solve(b).eval();
+        return b.allFinite();
+    }
     return withDimension(d, [&](auto dimension) {
         constexpr int D = decltype(dimension)::value;
-        constexpr int most = D == Eigen::Dynamic ? static_cast<int>(maxCoordinates) : D;
+        constexpr int most = D == Eigen::Dynamic ? static_cast<int>(fewCoordinates) : D;
         Eigen::Matrix<double, D, D, 0, most, most> mass(d, d);
         for (int i = 0; i < d; ++i)
             for (int j = 0; j <= i; ++j) mass(i, j) = mass(j, i) = *triangle++;
@@ -165,18 +184,20 @@ bool solveMass(int d, const double* triangle, double* x) {
 }
 
 /// v from r = p - L_v at a guess, by one solve with the mass matrix there. Outputs of the tape: L_v, then
-/// L_vv.
+/// L_vv, or its diagonal where there is no other entry.
 bool solveVelocity(const Model& m, const Registers& r, double* x) {
     const auto d = static_cast<std::size_t>(m.d);
     if (m.isDiagonal) {
         bool isFinite = true;
         for (std::size_t i = 0; i < d; ++i) {
-            x[i] /= r[d + (i + 1) * (i + 2) / 2 - 1];
+            x[i] /= r[d + i];
             isFinite = isFinite && std::isfinite(x[i]);
         }
         return isFinite;
     }
-    double triangle[maxCoordinates * (maxCoordinates + 1) / 2];
+    double few[fewCoordinates * (fewCoordinates + 1) / 2];
+    std::vector<double> many(d > fewCoordinates ? d * (d + 1) / 2 : 0);
+    double* const triangle = d > fewCoordinates ? many.data() : few;
     for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) triangle[k] = r[d + k];
     return solveMass(m.d, triangle, x);
 }
@@ -309,8 +330,10 @@ public:
         m.dimension = d_;
         m.jet = jet;
         m.gradient = gradient;
-        m.gradients = NodeTapes::gradients();
-        m.hessians = NodeTapes::hessians();
+        if (d_ <= static_cast<int>(fewCoordinates)) {
+            m.gradients = NodeTapes::gradients();
+            m.hessians = NodeTapes::hessians();
+        }
         m.isTimeDependent = n_.graph.dependsOn({n_.value}, [&](int s) { return s == formula_.time(); });
         if (findMasses()) {
             m.isSeparable = true;
@@ -337,12 +360,15 @@ private:
         const auto n = static_cast<std::size_t>(2 * d_);
         std::vector<int> roots{n_.value};
         roots.insert(roots.end(), n_.gradient.begin(), n_.gradient.end());
-        model_->hessian.assign(n * n, 0);
+        const bool isSmall = d_ <= static_cast<int>(fewCoordinates);
+        if (isSmall) model_->hessian.assign(n * n, 0);
         for (std::size_t i = 0, k = 0; i < n; ++i)
             for (std::size_t j = 0; j <= i; ++j, ++k) {
                 const int node = n_.hessian[k];
                 if (n_.graph.isNumber(node)) {
-                    model_->hessian[i * n + j] = model_->hessian[j * n + i] = n_.graph.at(node).number;
+                    const double value = n_.graph.at(node).number;
+                    if (isSmall) model_->hessian[i * n + j] = model_->hessian[j * n + i] = value;
+                    if (value != 0) model_->constants.push_back({i * n + j, j * n + i, value});
                 } else {
                     model_->places.push_back({roots.size(), i * n + j, j * n + i});
                     roots.push_back(node);
@@ -355,20 +381,20 @@ private:
     std::vector<int> massNodes() const {
         std::vector<int> nodes;
         for (int i = 0; i < d_; ++i)
-            for (int j = 0; j <= i; ++j) nodes.push_back(n_.second(d_ + i, d_ + j));
+            for (int j = model_->isDiagonal ? i : 0; j <= i; ++j) nodes.push_back(n_.second(d_ + i, d_ + j));
         return nodes;
     }
     void buildLegendre() {
-        std::vector<int> mass = massNodes();
+        model_->isDiagonal = true;
+        for (int i = 0; i < d_; ++i)
+            for (int j = 0; j < i; ++j)
+                model_->isDiagonal = model_->isDiagonal && n_.graph.isZero(n_.second(d_ + i, d_ + j));
+        const std::vector<int> mass = massNodes();
         const auto atZero = [&](int symbol) {
             return isVelocity(symbol) ? std::optional<double>(0) : std::nullopt;
         };
         std::vector<int> roots(n_.gradient.begin() + d_, n_.gradient.end());
         model_->isQuadratic = !n_.graph.dependsOn(mass, [&](int s) { return isVelocity(s); });
-        model_->isDiagonal = true;
-        for (int i = 0; i < d_; ++i)
-            for (int j = 0; j < i; ++j)
-                model_->isDiagonal = model_->isDiagonal && n_.graph.isZero(n_.second(d_ + i, d_ + j));
         roots.insert(roots.end(), mass.begin(), mass.end());
         if (model_->isQuadratic) {
             Graph graph;
@@ -425,12 +451,10 @@ LagrangianEntries entriesOf(const Mechanics<double>& mechanics) {
     auto model = std::make_shared<EntriesModel>();
     model->mechanics = mechanics.model;
     LagrangianEntries made;
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j <= i; ++j)
-            if (m.hessian[i * n + j] != 0) {
-                made.hessian.push_back({static_cast<int>(i), static_cast<int>(j)});
-                model->constants.push_back(m.hessian[i * n + j]);
-            }
+    for (const Model::Constant& c : m.constants) {
+        made.hessian.push_back({static_cast<int>(c.at / n), static_cast<int>(c.at % n)});
+        model->constants.push_back(c.value);
+    }
     for (const Model::Place& place : m.places)
         made.hessian.push_back({static_cast<int>(place.at / n), static_cast<int>(place.at % n)});
     made.model = std::move(model);

@@ -8,6 +8,7 @@
 #include "engine/model/typed/parts/controls.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/typeset.hpp"
+#include "engine/model/typed/written_out.hpp"
 
 namespace extremal::typed {
 namespace {
@@ -35,8 +36,10 @@ std::string termNameProblem(const std::string& name) {
 
 }  // namespace
 
-Formula formulaOf(const Settings& settings) {
+Formula formulaOf(const Settings& given) {
+    const Settings settings = writtenOut(given);
     Formula formula;
+    formula.isExpanded = hasIndices(given);
     std::vector<Problem> problems;
     std::set<std::string> taken;
     const Value* coordinates = settings.find("coordinates");

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace extremal::typed {
@@ -117,63 +119,87 @@ struct Rod {
     std::vector<double> anchor = {};  ///< places of the coordinates of `from`, where the other end is fixed
 };
 
-/// The second derivatives of constraint k.
-std::vector<double> curvatureOf(const Constraint& g, int k, const std::vector<double>& q) {
-    std::vector<double> lambda(static_cast<std::size_t>(g.count())), matrix(q.size() * q.size());
-    lambda[static_cast<std::size_t>(k)] = 1;
-    g.addCurvature(g.model.get(), 0, q.data(), lambda.data(), matrix.data());
-    return matrix;
-}
+/// Second derivatives of one constraint, by (row, column) with column <= row, where they are constant.
+using Curvature = std::map<std::pair<int, int>, double>;
 
-/// Constraint k as a rod: c (|r_a - r_b|^2 - l^2), or c (|r_a - r_0|^2 - l^2), whose second derivatives are
-/// constant and c times those of a squared distance.
-std::optional<Rod> rodOf(const Constraint& g, int k, const std::vector<TypedBody>& bodies, std::size_t d) {
+/// Of all constraints; nothing for one whose second derivatives change with the place.
+std::vector<std::optional<Curvature>> curvaturesOf(const Constraint& g, std::size_t d) {
     std::vector<double> q(d), other(d);
     for (std::size_t i = 0; i < d; ++i) {
         q[i] = 0.3 + 0.17 * static_cast<double>(i);
         other[i] = 1.1 - 0.23 * static_cast<double>(i);
     }
-    const std::vector<double> H = curvatureOf(g, k, q), again = curvatureOf(g, k, other);
-    const auto at = [&](int i, int j) {
-        return H[static_cast<std::size_t>(i) * d + static_cast<std::size_t>(j)];
-    };
+    const auto& entries = g.entries->curvature;
+    std::vector<double> here(entries.size()), there(entries.size());
+    g.entries->second(g.model.get(), 0, q.data(), here.data());
+    g.entries->second(g.model.get(), 0, other.data(), there.data());
+    std::vector<std::optional<Curvature>> all(static_cast<std::size_t>(g.count()), Curvature{});
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+        std::optional<Curvature>& own = all[static_cast<std::size_t>(entries[e].constraint)];
+        if (!own) continue;
+        if (here[e] != there[e])
+            own.reset();
+        else if (here[e] != 0)
+            (*own)[{entries[e].row, entries[e].column}] = here[e];
+    }
+    return all;
+}
+
+/// A constraint as a rod: c (|r_a - r_b|^2 - l^2), or c (|r_a - r_0|^2 - l^2), whose second derivatives are
+/// constant and c times those of a squared distance. `anchor` is not set.
+std::optional<Rod> rodOf(const Curvature& curvature, const std::vector<TypedBody>& bodies) {
     const auto axes = [](const TypedBody& b) { return std::array<int, 3>{b.x, b.y, b.z}; };
     std::vector<std::size_t> ends;
     double scale = 0;
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        for (const int axis : axes(bodies[b]))
-            if (axis >= 0 && at(axis, axis) != 0 && (ends.empty() || ends.back() != b)) {
-                ends.push_back(b);
-                scale = at(axis, axis);
-            }
+        for (const int axis : axes(bodies[b])) {
+            const auto found = curvature.find({axis, axis});
+            if (found == curvature.end()) continue;
+            if (ends.empty() || ends.back() != b) ends.push_back(b);
+            scale = found->second;
+        }
     if (ends.empty() || ends.size() > 2) return {};
-    std::vector<double> expected(d * d, 0);
-    const auto expect = [&](int i, int j, double value) {
-        if (i >= 0 && j >= 0) expected[static_cast<std::size_t>(i) * d + static_cast<std::size_t>(j)] = value;
-    };
+    Curvature expected;
     for (const std::size_t a : ends)
         for (const std::size_t b : ends)
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                expect(axes(bodies[a])[axis], axes(bodies[b])[axis], a == b ? scale : -scale);
-    for (std::size_t i = 0; i < d * d; ++i)
-        if (std::abs(H[i] - expected[i]) > 1e-12 * std::abs(scale) || H[i] != again[i]) return {};
-    Rod rod{ends.front()};
-    if (ends.size() == 2) {
-        rod.to = ends.back();
-        return rod;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const int i = axes(bodies[a])[axis], j = axes(bodies[b])[axis];
+                if (i >= 0 && j >= 0 && j <= i) expected[{i, j}] = a == b ? scale : -scale;
+            }
+    if (expected.size() != curvature.size()) return {};
+    for (const auto& [place, value] : expected) {
+        const auto found = curvature.find(place);
+        if (found == curvature.end() || std::abs(found->second - value) > 1e-12 * std::abs(scale)) return {};
     }
-    const auto n = static_cast<std::size_t>(g.count());
-    std::vector<double> value(n), byTime(n), byPlace(n * d);
-    g.first(g.model.get(), 0, q.data(), value.data(), byPlace.data(), byTime.data());
-    rod.anchor = q;
-    for (std::size_t i = 0; i < d; ++i) rod.anchor[i] -= byPlace[static_cast<std::size_t>(k) * d + i] / scale;
+    Rod rod{ends.front()};
+    if (ends.size() == 2) rod.to = ends.back();
     return rod;
+}
+
+/// Where the other ends of rods to fixed points are: r_0 = r_a - g_q / c.
+void findAnchor(Rod& rod, const Constraint& g, int k, double scale, std::size_t d) {
+    const auto n = static_cast<std::size_t>(g.count());
+    const auto& entries = g.entries->byPlace;
+    std::vector<double> q(d, 0.0), value(n), byTime(n), byPlace(entries.size());
+    g.entries->first(g.model.get(), 0, q.data(), value.data(), byPlace.data(), byTime.data());
+    rod.anchor = q;
+    for (std::size_t e = 0; e < entries.size(); ++e)
+        if (entries[e].row == k)
+            rod.anchor[static_cast<std::size_t>(entries[e].column)] -= byPlace[e] / scale;
 }
 
 std::vector<Rod> rodsOf(const Constraint* g, const std::vector<TypedBody>& bodies, std::size_t d) {
     std::vector<Rod> rods;
-    for (int k = 0; g && k < g->count(); ++k)
-        if (const auto rod = rodOf(*g, k, bodies, d)) rods.push_back(*rod);
+    if (!g || !g->entries) return rods;
+    const auto curvatures = curvaturesOf(*g, d);
+    for (int k = 0; k < g->count(); ++k) {
+        const auto& curvature = curvatures[static_cast<std::size_t>(k)];
+        if (!curvature) continue;
+        auto rod = rodOf(*curvature, bodies);
+        if (!rod) continue;
+        if (!rod->to) findAnchor(*rod, *g, k, curvature->begin()->second, d);
+        rods.push_back(*std::move(rod));
+    }
     return rods;
 }
 

@@ -64,34 +64,44 @@ void addForces(const Settings& settings, const Formula& formula, Roots& roots, F
             throw InvalidScene(pointer, "there is no coordinate \"" + name + "\" for a force to act on",
                                suggestName(name, formula.coordinates));
         const auto i = placeOf(static_cast<int>(found - formula.coordinates.begin()));
-        const Formula own = withTime(formula, text.asString());
-        const auto symbolic = derivativesOf(own, pointer);
-        requireNoRateOfTime(own, pointer);
+        const OwnFormula own(formula, text.asString());
+        const int k = own.dimension();
+        const auto symbolic = derivativesOf(own.formula, pointer);
+        requireNoRateOfTime(own.formula, pointer);
         std::vector<int> nodes{symbolic->value};
         nodes.insert(nodes.end(), symbolic->gradient.begin(), symbolic->gradient.end());
-        const std::vector<int> here = roots.adopt(symbolic->graph, nodes);
+        const std::vector<int> here = roots.adopt(own, symbolic->graph, nodes);
         add(all.value[i], here[0], 1);
-        for (int j = 0; j < d; ++j) {
-            add(all.derivative[i][placeOf(j)], here[placeOf(1 + j)], 1);
-            add(all.derivative[i][placeOf(d + j)], here[placeOf(1 + d + 1 + j)], 1);
+        for (int j = 0; j < k; ++j) {
+            const int c = own.coordinates[placeOf(j)];
+            add(all.derivative[i][placeOf(c)], here[placeOf(1 + j)], 1);
+            add(all.derivative[i][placeOf(d + c)], here[placeOf(1 + k + 1 + j)], 1);
         }
     }
     const Value* const dissipation = settings.find("dissipation");
     if (!dissipation || !dissipation->isString() || dissipation->asString().empty()) return;
-    const Formula own = withTime(formula, dissipation->asString());
-    const auto symbolic = derivativesOf(own, "/dissipation");
-    requireNoRateOfTime(own, "/dissipation");
+    const OwnFormula own(formula, dissipation->asString());
+    const int k = own.dimension();
+    const auto symbolic = derivativesOf(own.formula, "/dissipation");
+    requireNoRateOfTime(own.formula, "/dissipation");
     const auto second = [&](int i, int j) {
         return symbolic->hessian[placeOf(i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i)];
     };
-    for (int i = 0; i < d; ++i) {
-        const int v = d + 1 + i;
-        std::vector<int> nodes{symbolic->gradient[placeOf(v)]};
-        for (int j = 0; j < d; ++j) nodes.push_back(second(v, j));
-        for (int j = 0; j < d; ++j) nodes.push_back(second(v, d + 1 + j));
-        const std::vector<int> here = roots.adopt(symbolic->graph, nodes);
-        add(all.value[placeOf(i)], here[0], -1);
-        for (int j = 0; j < 2 * d; ++j) add(all.derivative[placeOf(i)][placeOf(j)], here[placeOf(1 + j)], -1);
+    std::vector<int> nodes;
+    for (int i = 0; i < k; ++i) {
+        const int v = k + 1 + i;
+        nodes.push_back(symbolic->gradient[placeOf(v)]);
+        for (int j = 0; j < k; ++j) nodes.push_back(second(v, j));
+        for (int j = 0; j < k; ++j) nodes.push_back(second(v, k + 1 + j));
+    }
+    const std::vector<int> here = roots.adopt(own, symbolic->graph, nodes);
+    for (int i = 0, next = 0; i < k; ++i) {
+        const auto c = placeOf(own.coordinates[placeOf(i)]);
+        add(all.value[c], here[placeOf(next++)], -1);
+        for (int j = 0; j < 2 * k; ++j, ++next) {
+            const int by = own.coordinates[placeOf(j % k)] + (j < k ? 0 : d);
+            add(all.derivative[c][placeOf(by)], here[placeOf(next)], -1);
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 #include "engine/model/typed/parts/part_formulas.hpp"
 
 #include <string_view>
+#include <unordered_set>
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
@@ -15,6 +16,42 @@ Formula withTime(const Formula& formula, const std::string& text) {
     own.text = text;
     return own;
 }
+
+namespace {
+
+std::unordered_set<std::string> wordsOf(const std::string& text) {
+    const auto isPart = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    };
+    std::unordered_set<std::string> words;
+    for (std::size_t from = 0; from < text.size();) {
+        std::size_t to = from;
+        while (to < text.size() && isPart(text[to])) ++to;
+        if (to > from) words.insert(text.substr(from, to - from));
+        from = to + 1;
+    }
+    return words;
+}
+
+}  // namespace
+
+OwnFormula::OwnFormula(const Formula& model, const std::string& text) {
+    const bool hasFew = model.coordinates.size() <= fewCoordinates;
+    const std::unordered_set<std::string> words = hasFew ? std::unordered_set<std::string>{} : wordsOf(text);
+    formula.parameters = model.parameters;
+    formula.controls = model.controls;
+    formula.isExpanded = model.isExpanded;
+    formula.text = text;
+    for (int i = 0; i < model.dimension(); ++i) {
+        const std::string& name = model.coordinates[placeOf(i)];
+        if (!hasFew && !words.contains(name) && !words.contains(name + "_t")) continue;
+        formula.coordinates.push_back(name);
+        coordinates.push_back(i);
+    }
+    formula.coordinates.push_back("t");
+}
+
+bool occurs(const std::string& name, const std::string& text) { return wordsOf(text).contains(name); }
 
 std::shared_ptr<const SymbolicLagrangian> derivativesOf(const Formula& formula, const std::string& pointer) {
     try {

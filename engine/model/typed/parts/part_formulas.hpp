@@ -23,12 +23,40 @@ inline std::size_t placeOf(int i) { return static_cast<std::size_t>(i); }
 /// Symbols: q_i: i,  t: d,  v_i: d + 1 + i,  the rate of t: 2d + 1.
 Formula withTime(const Formula& formula, const std::string& text);
 
+/// A formula with time, in those coordinates of the model that occur in it where there are many, else in all:
+/// what is differentiated by each of its names should not have the names of all others.
+struct OwnFormula {
+    Formula formula;
+    std::vector<int> coordinates;  ///< in the model, of each of its own but time
+
+    OwnFormula(const Formula& model, const std::string& text);
+    int dimension() const { return static_cast<int>(coordinates.size()); }
+    /// The number that a symbol has in withTime() of the model, of d coordinates.
+    int renamed(int symbol, int d) const {
+        const int own = dimension() + 1, i = symbol % own;
+        return (symbol / own) * (d + 1) + (i == dimension() ? d : coordinates[static_cast<std::size_t>(i)]);
+    }
+};
+/// Whether a name stands in a text as a whole word.
+bool occurs(const std::string& name, const std::string& text);
+
 /// Roots of several formulas in one graph, with numbers in place of parameters.
 class Roots {
 public:
     explicit Roots(const Formula& withTime) : formula_(withTime) {}
 
-    /// The nodes of a graph here.
+    /// The nodes of the graph of a formula here.
+    std::vector<int> adopt(const OwnFormula& own, const Graph& from, const std::vector<int>& nodes) {
+        return graph_.adopt(
+            from, nodes,
+            [&](int symbol) -> std::optional<double> {
+                const int k = symbol - own.formula.firstParameter();
+                if (k < 0) return {};
+                return own.formula.parameters[placeOf(k)].second;
+            },
+            [&](int symbol) { return own.renamed(symbol, formula_.dimension() - 1); });
+    }
+    /// Of one that has all names.
     std::vector<int> adopt(const Graph& from, const std::vector<int>& nodes) {
         return graph_.adopt(from, nodes, [&](int symbol) -> std::optional<double> {
             const int k = symbol - formula_.firstParameter();

@@ -105,31 +105,33 @@ public:
         const int d = formula_.dimension();
         if (const std::string problem = nameProblem(name); !problem.empty())
             throw InvalidScene(place_ + name, "the name \"" + name + "\" " + problem);
-        const Formula own = withTime(formula_, text);
-        const auto symbolic = derivativesOf(own, pointer);
-        requireNoVelocities(own, name, pointer);
+        const OwnFormula own(formula_, text);
+        const int k = own.dimension();
+        const auto symbolic = derivativesOf(own.formula, pointer);
+        requireNoVelocities(own.formula, name, pointer);
         std::vector<int> nodes{symbolic->value};
-        nodes.insert(nodes.end(), symbolic->gradient.begin(), symbolic->gradient.begin() + d + 1);
-        const std::vector<int> here = roots_.adopt(symbolic->graph, nodes);
-        if (std::all_of(here.begin() + 1, here.begin() + 1 + d,
+        nodes.insert(nodes.end(), symbolic->gradient.begin(), symbolic->gradient.begin() + k + 1);
+        const std::vector<int> here = roots_.adopt(own, symbolic->graph, nodes);
+        if (std::all_of(here.begin() + 1, here.begin() + 1 + k,
                         [&](int node) { return roots_.graph().isZero(node); }))
             throw InvalidScene(pointer, "no coordinate is in it, so that it constrains nothing");
         model_->values.push_back(values_.size());
         values_.push_back(here.front());
         values_.push_back(here.back());
-        for (int i = 0; i < d; ++i) {
+        for (int i = 0; i < k; ++i) {
             if (roots_.graph().isZero(here[placeOf(1 + i)])) continue;
-            model_->first.push_back({model_->count, i, values_.size()});
+            model_->first.push_back({model_->count, own.coordinates[placeOf(i)], values_.size()});
             values_.push_back(here[placeOf(1 + i)]);
         }
         const std::vector<int> hessian(symbolic->hessian.begin(),
-                                       symbolic->hessian.begin() + (d + 1) * (d + 2) / 2);
-        const std::vector<int> curved = roots_.adopt(symbolic->graph, hessian);
+                                       symbolic->hessian.begin() + (k + 1) * (k + 2) / 2);
+        const std::vector<int> curved = roots_.adopt(own, symbolic->graph, hessian);
         std::size_t next = 0;
-        for (int i = 0; i <= d; ++i)
+        for (int i = 0; i <= k; ++i)
             for (int j = 0; j <= i; ++j, ++next) {
                 if (roots_.graph().isZero(curved[next])) continue;
-                model_->entries.push_back({model_->count, i, j, seconds_.size()});
+                model_->entries.push_back(
+                    {model_->count, own.renamed(i, d), own.renamed(j, d), seconds_.size()});
                 seconds_.push_back(curved[next]);
             }
         isTimeDependent_ = isTimeDependent_ ||
@@ -161,10 +163,11 @@ private:
 double numberOf(const Value& value, const Formula& formula, const std::string& pointer) {
     if (value.isNumber()) return value.asNumber();
     if (!value.isString()) throw InvalidScene(pointer, "must be a number or a formula in parameters");
-    const Formula own = withTime(formula, value.asString());
-    const auto symbolic = derivativesOf(own, pointer);
-    Roots roots(own);
-    const int node = roots.adopt(symbolic->graph, {symbolic->value}).front();
+    const OwnFormula own(formula, value.asString());
+    const auto symbolic = derivativesOf(own.formula, pointer);
+    const Formula names = withTime(formula, "");
+    Roots roots(names);
+    const int node = roots.adopt(own, symbolic->graph, {symbolic->value}).front();
     if (!roots.graph().isNumber(node))
         throw InvalidScene(pointer, "must be a number or a formula in parameters",
                            "the same at all times and places");

@@ -43,6 +43,9 @@ bool isUntouched(const Settings& settings, const Formula& formula, int coordinat
         if (key == name) return false;
     for (const auto& [text, isOfPlaces] : texts) {
         if (text.empty()) continue;
+        // Short texts in many names: nothing to resolve where it does not occur.
+        if (isOfPlaces && occurs(name, text)) return false;
+        if (!occurs(name, text) && !occurs(name + "_t", text)) continue;
         const Formula own = withTime(formula, text);
         const ResolvedFormula resolved = resolve(own);
         const int symbol = isOfPlaces ? coordinate : own.dimension() + coordinate;
