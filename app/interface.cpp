@@ -116,7 +116,8 @@ void addStudy(CLI::App& app, Arguments& arguments) {
         ->required()
         ->type_name("DIR");
     verb.add_option("--metric", study.metric,
-                    "error (default), energy, momentum, norm, phase, or an observable")
+                    "error (default), energy, momentum, norm, phase, an observable, or a column: "
+                    "error.theta, column:q.x, 2*error.x/own, rms(error.x/own, error.y/own)")
         ->type_name("NAME");
     verb.add_flag("--final", study.isFinal,
                   "the metric at the last node; its maximum over the run by default");
@@ -134,6 +135,19 @@ void addStudy(CLI::App& app, Arguments& arguments) {
     verb.add_flag("--limit", study.findsLimits, "bisect the limit along --x to four digits");
     verb.add_flag("--long", study.isLong, "for extremes: also the runs of 10^9 steps, which take minutes");
     verb.add_option("--error", study.error, "for cheapest: the error to be reached")->type_name("E");
+    verb.add_option("--wish", study.wishes,
+                    "for cheapest: a metric and the value it stays below; repeatable, all must hold; for "
+                    "needs: a rung of the ladder, 0.1 to 1e-12 by default")
+        ->type_name("METRIC=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option("--candidates", study.candidates,
+                    "for cheapest: the schemes of the scene (default), or all that accept it; for needs all "
+                    "by default")
+        ->type_name("scene|all");
+    verb.add_option("--search-time", study.searchTime,
+                    "for cheapest and needs: CPU time of the search, 1s and 4s by default")
+        ->type_name("TIME");
     verb.add_option("--repeat", study.repeat, "timed runs per point, 5 by default; 0: no times")
         ->type_name("R");
     verb.add_option("--only", study.only, "the label of a scheme; repeatable")
@@ -247,6 +261,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() 
         {"study",
          {"extremal study convergence preset:pendulum --repeat 0 --out orders",
           "extremal study cheapest preset:pendulum --error 1e-4 --repeat 1 --out cheapest",
+          "extremal study needs preset:spring-pendulum --metric error.theta --out needs",
           "extremal study stability preset:pendulum --x '/schemes/*/step=0.1:1:4' --out stability"}},
         {"atlas",
          {"extremal atlas --quick --out atlas", "extremal atlas --systems kepler,pendulum --out atlas"}},

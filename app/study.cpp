@@ -87,11 +87,16 @@ bool isReached(const StudyEntry& study, const Sweep& sweep, const StudyTable& ta
     if (std::any_of(sweep.rows().begin(), sweep.rows().end(), isDone)) return true;
     const Value rows = rowsValue(table);
     std::string nearest = "no scheme ran to the end";
-    if (!rows.asArray().empty() && rows.asArray().front().find("error")->isNumber())
-        nearest = rows.asArray().front().find("label")->asString() + ", " +
-                  formatNumber(rows.asArray().front().find("error")->asNumber(), 3);
-    printProblem("--error", "no scheme reaches " + formatNumber(sweep.options().wantedError, 3),
-                 "the nearest: " + nearest);
+    if (!rows.asArray().empty() && rows.asArray().front().find("error")->isNumber()) {
+        const Value& first = rows.asArray().front();
+        nearest = first.find("label")->asString() + ", " + formatNumber(first.find("error")->asNumber(), 3);
+        if (const Value* const reason = first.find("reason"); reason && reason->isString())
+            nearest += ": " + reason->asString();
+    }
+    std::string wished = formatNumber(sweep.options().wantedError, 3);
+    for (const Wish& wish : sweep.options().wishes)
+        wished += " with " + wish.metric + ' ' + formatNumber(wish.value, 3);
+    printProblem("--error", "no scheme reaches " + wished, "the nearest: " + nearest);
     return false;
 }
 template <class Study>

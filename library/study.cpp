@@ -31,6 +31,9 @@ StudyRequest requestOf(const std::string& kind, const StudyOptions& options) {
     request.findsLimits = options.findsLimits;
     request.repeat = options.repeat;
     request.only = options.only;
+    request.wishes = options.wishes;
+    request.candidates = options.candidates;
+    request.searchTime = options.searchTime;
     return request;
 }
 

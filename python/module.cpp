@@ -294,17 +294,21 @@ void bindStudy(py::module_& m) {
         .def(py::init([](const std::string& kind, const api::Scene& scene, const std::string& metric,
                          bool final, const std::vector<double>& steps, double from, double to, int points,
                          double error, const std::string& x, const std::string& y, bool limit, int repeat,
-                         const std::vector<std::string>& only, unsigned threads) {
+                         const std::vector<std::string>& only, unsigned threads,
+                         const std::vector<std::string>& wishes, const std::string& candidates,
+                         const std::string& searchTime) {
                  return std::make_unique<api::Study>(
                      kind, scene,
                      api::StudyOptions{metric, final, steps, from, to, points, error, x, y, limit, repeat,
-                                       only, threads});
+                                       only, threads, wishes, candidates, searchTime});
              }),
              py::arg("kind"), py::arg("scene"), py::kw_only(), py::arg("metric") = "error",
              py::arg("final") = false, py::arg("steps") = std::vector<double>(), py::arg("from_step") = 0,
              py::arg("to_step") = 0, py::arg("points") = 0, py::arg("error") = 0, py::arg("x") = "",
              py::arg("y") = "", py::arg("limit") = false, py::arg("repeat") = 5,
-             py::arg("only") = std::vector<std::string>(), py::arg("threads") = 0)
+             py::arg("only") = std::vector<std::string>(), py::arg("threads") = 0,
+             py::arg("wishes") = std::vector<std::string>(), py::arg("candidates") = "",
+             py::arg("search_time") = "")
         .def(
             "run",
             [](api::Study& study, const std::optional<py::function>& progress) {

@@ -19,12 +19,9 @@ namespace extremal {
 namespace {
 
 std::string errorTitle(const Sweep& sweep) {
-    const Observer observer =
-        sweep.metric().observable->bind({*sweep.scene().system, sweep.scene().initial, {}});
-    const Column& column = observer.columns[static_cast<std::size_t>(observer.extreme)];
-    const std::string symbol = column.symbol.empty() ? column.name : column.symbol;
+    const std::string symbol = sweep.metric().title();
     const std::string size = symbol.starts_with("|") ? symbol : "|" + symbol + "|";
-    return axisTitle(sweep.metric().isAtEnd ? size + " at the end" : "max " + size, column.unit);
+    return axisTitle(sweep.metric().isAtEnd ? size + " at the end" : "max " + size, sweep.metric().unit());
 }
 
 Figure startOf(const Sweep& sweep, const char* view, const char* title) {
@@ -33,7 +30,7 @@ Figure startOf(const Sweep& sweep, const char* view, const char* title) {
     figure.title = title;
     figure.y = logAxis(errorTitle(sweep));
     if (const double floor = referenceFloor(sweep.reference()); floor > 0) figure.add(DoubtfulBand{floor});
-    if (sweep.metric().observable->needsReference)
+    if (sweep.metric().needsReference())
         figure.add(RoundOffFloor{0x1p-52 * largestEntry(sweep.scene().initial)});
     return figure;
 }

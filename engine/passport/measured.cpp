@@ -65,6 +65,7 @@ void addMeasured(const ResolvedScene& scene, std::size_t scheme, unsigned thread
         double step = 0;
         const ResolvedScene alone = aloneWith(scene, scheme, step);
         SweepOptions options;
+        options.metric = "column:error";  // as runs write it, whatever the units
         options.repeat = 1;
         options.threads = threads;
         if (step > 0 && !hasStepOfItsSpace(alone, alone.schemes.front()))

@@ -25,8 +25,8 @@ struct StudyTable {
 struct StudyEntry {
     /// What it runs over: steps, the steps that a wanted error needs (SweepOptions::wantedError), or numbers
     /// of the scene (StabilityOptions), the steps of a test equation in place of the scene's model, or the
-    /// extremes of scenes of its own.
-    enum class Over { steps, wantedError, numbers, testEquation, extremes };
+    /// extremes of scenes of its own; or a ladder of wishes (SweepOptions::rungs).
+    enum class Over { steps, wantedError, numbers, testEquation, extremes, wishes };
     CatalogItem item;
     Over over = Over::steps;
     std::vector<std::string> columns;  ///< of <id>.csv

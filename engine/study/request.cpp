@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/study/request.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "engine/core/problem.hpp"
@@ -24,14 +27,46 @@ Shard parseShard(const std::string& text) {
     return {static_cast<int>(*index), static_cast<int>(*count)};
 }
 
+/// "error.theta=1e-3". The number alone for a rung of a ladder, whose metric is said by --metric.
+Wish parseWish(const std::string& text, bool isRung) {
+    if (const auto number = parseNumber(text); isRung && number) return {"", *number};
+    const std::size_t equals = text.rfind('=');
+    const auto value = equals == std::string::npos ? std::nullopt : parseNumber(text.substr(equals + 1));
+    if (!value || equals == 0)
+        throw InvalidScene("--wish", "must be METRIC=VALUE, got \"" + text + "\"",
+                           "for example error.theta=1e-3");
+    return {text.substr(0, equals), *value};
+}
+
+/// "1", "1s", "500ms"; in seconds.
+double parseSeconds(const std::string& text) {
+    std::string number = text;
+    double unit = 1;
+    if (number.ends_with("ms")) {
+        unit = 1e-3;
+        number.resize(number.size() - 2);
+    } else if (number.ends_with("s")) {
+        number.resize(number.size() - 1);
+    }
+    const auto seconds = parseNumber(number);
+    if (!seconds || !(std::isfinite(*seconds) && *seconds > 0))
+        throw InvalidScene("--search-time", "must be a time above 0, got \"" + text + "\"",
+                           "for example 500ms or 2s");
+    return *seconds * unit;
+}
+
 void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
     using Over = StudyEntry::Over;
     const auto refuse = [&](bool isGiven, Over over, const char* option, const char* whose) {
-        if (isGiven && entry.over != over)
+        const bool isSearch = over == Over::wantedError && entry.over == Over::wishes;
+        if (isGiven && entry.over != over && !(isSearch && std::string_view(option) != "--error"))
             throw InvalidScene(option, "is not an option of " + entry.item.id,
                                std::string(whose) + " has it");
     };
     refuse(study.error != 0, Over::wantedError, "--error", "cheapest");
+    refuse(!study.wishes.empty(), Over::wantedError, "--wish", "cheapest");
+    refuse(!study.candidates.empty(), Over::wantedError, "--candidates", "cheapest");
+    refuse(!study.searchTime.empty(), Over::wantedError, "--search-time", "cheapest");
     refuse(!study.x.empty(), Over::numbers, "--x", "stability");
     refuse(!study.y.empty(), Over::numbers, "--y", "stability");
     refuse(study.findsLimits, Over::numbers, "--limit", "stability");
@@ -42,7 +77,7 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
                                           {study.points != 0, "--points"}})
         refuse(isGiven, Over::steps, option, "convergence");
     const StudyRequest usual;
-    if (entry.over != Over::wantedError)
+    if (entry.over != Over::wantedError && entry.over != Over::wishes)
         for (const auto& [isGiven, option] : {std::pair{study.metric != usual.metric, "--metric"},
                                               {study.isFinal, "--final"},
                                               {study.repeat != usual.repeat, "--repeat"}})
@@ -51,17 +86,41 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
         throw InvalidScene("--only", "is not an option of " + entry.item.id, "convergence has it");
     if (!study.steps.empty() && (study.from != 0 || study.to != 0))
         throw InvalidScene("--steps", "says what --from and --to say as well", "one or the other");
-    if (entry.over == Over::wantedError && study.error == 0)
-        throw InvalidScene("--error", "is required for " + entry.item.id, "for example --error 1e-6");
+    if (entry.over == Over::wantedError && study.error == 0 && study.wishes.empty())
+        throw InvalidScene("--error", "is required for " + entry.item.id,
+                           "for example --error 1e-6, or --wish energy=1e-6");
+    if (!study.candidates.empty() && study.candidates != "scene" && study.candidates != "all")
+        throw InvalidScene("--candidates", "must be scene or all, got \"" + study.candidates + "\"");
     if (entry.over == Over::numbers && study.x.empty())
         throw InvalidScene("--x", "is required for " + entry.item.id,
                            "for example '/schemes/*/step=0.01:1:50:log'");
 }
 
-Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, unsigned threads) {
+Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadder, unsigned threads) {
     SweepOptions options;
     options.wantedError = study.error;
     options.metric = study.metric;
+    for (const std::string& wish : study.wishes) options.wishes.push_back(parseWish(wish, isLadder));
+    for (const Wish& wish : options.wishes)
+        if (isLadder && !wish.metric.empty() && wish.metric != study.metric)
+            throw InvalidScene("--wish",
+                               "is of \"" + wish.metric + "\", and the ladder of \"" + study.metric + "\"",
+                               "--metric " + wish.metric);
+    if (!isLadder && study.error == 0 && !options.wishes.empty()) {  // the first wish stands in for --error
+        options.metric = options.wishes.front().metric;
+        options.wantedError = options.wishes.front().value;
+        options.wishes.erase(options.wishes.begin());
+        if (options.wantedError == 0)
+            throw InvalidScene("--wish", "must be positive and finite, got 0", "for example 1e-6");
+    }
+    if (isLadder) {
+        for (const Wish& wish : options.wishes) options.rungs.push_back(wish.value);
+        std::sort(options.rungs.begin(), options.rungs.end(), std::greater<>());
+        options.wishes.clear();
+        if (study.wishes.empty()) options.rungs = usualRungs();
+    }
+    options.hasAllCandidates = study.candidates == "all" || (isLadder && study.candidates.empty());
+    if (!study.searchTime.empty()) options.searchSeconds = parseSeconds(study.searchTime);
     options.isAtEnd = study.isFinal;
     options.ladder = {study.steps, study.from, study.to, study.points};
     if (study.steps.empty() && (study.from != 0 || study.to != 0) && study.points == 0)
@@ -110,7 +169,7 @@ AnyStudy makeStudy(const StudyEntry& entry, const StudyRequest& request, const R
         case StudyEntry::Over::testEquation:
             return LinearStudy(*scene, {request.only, parseShard(request.shard), threads});
         default:
-            return sweepOf(*scene, request, threads);
+            return sweepOf(*scene, request, entry.over == StudyEntry::Over::wishes, threads);
     }
 }
 

@@ -15,6 +15,9 @@ struct StudyRequest {
     bool isFinal = false, findsLimits = false, isLong = false;
     std::vector<double> steps;
     double from = 0, to = 0, error = 0;
+    std::vector<std::string> wishes;  ///< "METRIC=VALUE"
+    std::string candidates;           ///< "scene" or "all"; empty: "scene", of needs "all"
+    std::string searchTime;           ///< "0.5", "500ms", "1s"; empty: the usual one
     int points = 0, repeat = 5;
     std::vector<std::string> only;
 };

@@ -11,7 +11,8 @@
 #include "engine/core/text/text.hpp"
 #include "engine/run/reference/map_reference.hpp"
 #include "engine/scene/outlook/cost.hpp"
-#include "engine/study/search/search.hpp"
+#include "engine/study/search/candidate_search.hpp"
+#include "engine/study/search/search_reference.hpp"
 
 namespace extremal {
 
@@ -20,27 +21,66 @@ namespace {
 /// Of a reference that is asked itself.
 constexpr std::size_t noRow = std::numeric_limits<std::size_t>::max();
 
+Metric sized(const Metric& metric, const ResolvedScene& scene, const ExactSolution& solution) {
+    return withSizes(metric, solution, scene.scene.start.value, scene.scene.end.value,
+                     scene.initial.x.size());
+}
+
 }  // namespace
 
+std::vector<double> usualRungs() {
+    constexpr int mostDigits = 12;
+    std::vector<double> all;
+    for (int digits = 1; digits <= mostDigits; ++digits) all.push_back(std::pow(10.0, -digits));
+    return all;
+}
+
 Sweep::Sweep(ResolvedScene scene, SweepOptions options)
-    : scene_(std::move(scene)),
-      options_(std::move(options)),
-      metric_(metricOf(options_.metric, options_.isAtEnd, *scene_.system, scene_.initial)) {
-    requireShard(options_.shard);
-    if (options_.repeat < 0 || options_.repeat > 1000)
-        throw InvalidScene("--repeat", "must be 0 to 1000, got " + std::to_string(options_.repeat));
-    if (metric_.observable->needsReference && scene_.scene.reference.kind == ReferenceSpec::Kind::none)
-        throw InvalidScene("/reference", "errors need a reference, and the scene has none",
-                           "\"auto\", or --metric energy");
-    const bool isSearch = options_.wantedError != 0;
-    if (isSearch && !(std::isfinite(options_.wantedError) && options_.wantedError > 0))
-        throw InvalidScene("--error",
-                           "must be positive and finite, got " + formatNumber(options_.wantedError));
+    : scene_(std::move(scene)), options_(std::move(options)), ownSchemes_(scene_.schemes.size()) {
+    for (const Wish& wish : wishes())
+        metrics_.push_back(metricOf(wish.metric, options_.isAtEnd, *scene_.system, scene_.initial));
+    checkOptions();
     for (const std::size_t scheme : chosenSchemes(scene_.scene, options_.only))
-        if (isSearch)
+        if (isSearch())
             addOwnPoint(scheme);
         else
             addLadder(scheme);
+    if (options_.hasAllCandidates) addSearched();
+    if (options_.rungs.empty()) return;
+    searched_ = std::move(rows_);
+    rows_.assign(options_.rungs.size(), SweepRow{searched_.front().point, {}});
+}
+
+std::vector<Wish> Sweep::wishes() const {
+    std::vector<Wish> all{{options_.metric, options_.wantedError}};
+    all.insert(all.end(), options_.wishes.begin(), options_.wishes.end());
+    return all;
+}
+
+void Sweep::checkOptions() const {
+    requireShard(options_.shard);
+    if (options_.repeat < 0 || options_.repeat > 1000)
+        throw InvalidScene("--repeat", "must be 0 to 1000, got " + std::to_string(options_.repeat));
+    for (const Metric& metric : metrics_)
+        if (metric.needsReference() && scene_.scene.reference.kind == ReferenceSpec::Kind::none)
+            throw InvalidScene("/reference", "errors need a reference, and the scene has none",
+                               "\"auto\", or --metric energy");
+    const auto requireUsable = [](double value, const char* option) {
+        if (!(std::isfinite(value) && value > 0))
+            throw InvalidScene(option, "must be positive and finite, got " + formatNumber(value));
+    };
+    if (options_.wantedError != 0) requireUsable(options_.wantedError, "--error");
+    for (const Wish& wish : options_.wishes) requireUsable(wish.value, "--wish");
+    for (const double rung : options_.rungs) requireUsable(rung, "--wish");
+    if (options_.searchSeconds != 0) requireUsable(options_.searchSeconds, "--search-time");
+}
+
+/// What the scene does not have itself.
+void Sweep::addSearched() {
+    Candidates all = candidatesFor(scene_);
+    scene_ = std::move(all.scene);
+    refused_ = std::move(all.refused);
+    for (std::size_t scheme = ownSchemes_; scheme < scene_.schemes.size(); ++scheme) addOwnPoint(scheme);
 }
 
 /// Where a search begins. No table of the reference has the nodes that it will ask for.
@@ -87,9 +127,11 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         return rows_[i].result.status != RunStatus::waiting;
     });
     if (wanted.empty()) return;
+    if (isSearch()) return runSearch(wanted, onReference, onPoint, stop);
     MapReference reference;
     Reference scheme;  // what adaptive runs, whose nodes no table has, are compared with
-    if (metric_.observable->needsReference) {
+    Metric metric = metrics_.front();
+    if (metric.needsReference()) {
         progress_.setPreparing(true);
         reference = MapReference(scene_, steps_, stop);
         if (scene_.scene.reference.kind == ReferenceSpec::Kind::scheme) scheme = makeReference(scene_, stop);
@@ -103,15 +145,13 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         if (point.step == 0 && scheme.make && !run.ownSystem) return scheme.make();
         return reference.at(point.row, scene_, run);
     };
-    const Run run = [&](const StudyPoint& at, int repeat) {
-        return runPoint(scene_, at, metric_, referenceOf(at), repeat, stop);
-    };
-    const bool isSearch = options_.wantedError > 0;
-    const std::vector<Prospect> all = isSearch ? prospects(run, stop) : std::vector<Prospect>{};
-    const double least = leastWork(all);
+    if (metric.needsSizes())
+        if (const ExactSolution solution =
+                scheme.make ? scheme.make() : reference.at(noRow, scene_, scene_.schemes.front()))
+            metric = sized(metric, scene_, solution);
     const auto compute = [&](std::size_t i) {
         const StudyPoint& point = rows_[i].point;
-        return isSearch ? search(point, all[i], least, run) : run(point, options_.repeat);
+        return runPoint(scene_, point, metric, referenceOf(point), options_.repeat, stop);
     };
     progress_.run(wanted, options_.threads, stop, compute, [&](std::size_t i, PointResult result) {
         rows_[i].result = std::move(result);
@@ -119,35 +159,64 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
     });
 }
 
-/// Of all schemes, whatever the shard: each shard has to drop the same.
-std::vector<Prospect> Sweep::prospects(const Run& run, const std::stop_token& stop) const {
-    std::vector<Prospect> all(rows_.size());
-    if (all.size() < 2) return all;
-    std::vector<std::size_t> every(rows_.size());
-    std::iota(every.begin(), every.end(), std::size_t{0});
-    forEachInPool(every, options_.threads, stop, [&](std::size_t i) {
-        const StudyPoint& point = rows_[i].point;
-        all[i] = prospectOf(scene_.schemes[point.scheme], run(point, 0), options_.wantedError);
-    });
-    return all;
+void Sweep::runSearch(const std::vector<std::size_t>& wanted,
+                      const std::function<void(const ReferenceInfo&)>& onReference,
+                      const std::function<void(std::size_t, const PointResult&)>& onPoint,
+                      const std::stop_token& stop) {
+    constexpr double usualSeconds = 1, usualOfLadder = 4;
+    const bool isLadder = !options_.rungs.empty();
+    SearchReference reference;
+    const bool isNeeded =
+        std::any_of(metrics_.begin(), metrics_.end(), [](const Metric& m) { return m.needsReference(); });
+    if (isNeeded) {
+        progress_.setPreparing(true);
+        reference = SearchReference(scene_, metrics_, stop);
+        progress_.setPreparing(false);
+        if (stop.stop_requested()) return;
+        reference_ = reference.info();
+        if (onReference) onReference(reference_);
+    }
+    std::vector<Metric> metrics = metrics_;
+    for (Metric& metric : metrics) metric = reference.sized(metric, scene_);
+    std::vector<SearchedScheme> schemes;
+    for (const SweepRow& row : isLadder ? searched_ : rows_)
+        schemes.push_back({row.point, !isLadder && isOfScene(row.point.scheme)});
+    const bool isCounted = options_.repeat == 0;
+    const double seconds = options_.searchSeconds > 0 ? options_.searchSeconds
+                           : isCounted                ? std::numeric_limits<double>::infinity()
+                           : isLadder                 ? usualOfLadder
+                                                      : usualSeconds;
+    CandidateSearch search(
+        scene_, std::move(schemes), std::move(metrics),
+        [&](const StudyPoint& point) { return reference.of(scene_.schemes[point.scheme]); }, reference_,
+        isCounted, seconds, stop);
+    if (isLadder) return climb(search, wanted, onPoint, stop);
+    std::vector<double> values;
+    for (const Wish& wish : wishes()) values.push_back(wish.value);
+    std::vector<PointResult> results = search.find(values, options_.repeat);
+    progress_.run(
+        wanted, 1, stop, [&](std::size_t i) { return std::move(results[i]); },
+        [&](std::size_t i, PointResult result) {
+            rows_[i].result = std::move(result);
+            if (onPoint) onPoint(i, rows_[i].result);
+        });
 }
 
-/// The largest step with the wanted error, sought only where it may be the cheapest.
-PointResult Sweep::search(const StudyPoint& point, const Prospect& prospect, double least,
-                          const Run& run) const {
-    constexpr double most = 1e7;
-    const double budget = mostTimesTheLeast * least,
-                 steps = prospect.perStep > 0 ? std::min(most, budget / prospect.perStep) : most;
-    const bool isHopeless = prospect.work > budget;
-    PointResult result = isHopeless ? run(point, 0)
-                                    : searchPoint(scene_, point, options_.wantedError, options_.repeat, run,
-                                                  std::max(1.0, std::floor(steps)));
-    if (isHopeless && result.isDone()) result.status = RunStatus::failed;
-    if (result.status == RunStatus::failed && steps < most)
-        result.timesCheapest = std::max(prospect.work / least, mostTimesTheLeast);
-    if (result.isDone())
-        result.predictedSeconds = predictSeconds(scene_, schemeAt(scene_, point.scheme, result));
-    return result;
+/// From the largest wish down: the runs for one are known to the next.
+void Sweep::climb(CandidateSearch& search, const std::vector<std::size_t>& wanted,
+                  const std::function<void(std::size_t, const PointResult&)>& onPoint,
+                  const std::stop_token& stop) {
+    progress_.run(
+        wanted, 1, stop,
+        [&](std::size_t i) {
+            auto [index, result] = search.cheapest({&options_.rungs[i], 1}, options_.repeat);
+            result.scheme = searched_[index].point.scheme;
+            return result;
+        },
+        [&](std::size_t i, PointResult result) {
+            take(i, std::move(result));
+            if (onPoint) onPoint(i, rows_[i].result);
+        });
 }
 
 std::vector<SchemeRows> bySchemes(const Sweep& sweep) {

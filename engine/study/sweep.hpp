@@ -18,10 +18,19 @@
 #include "engine/study/progress.hpp"
 #include "engine/study/search/ladder.hpp"
 #include "engine/study/search/metric.hpp"
+#include "engine/study/search/candidates.hpp"
 #include "engine/study/search/point.hpp"
-#include "engine/study/search/prospect.hpp"
 
 namespace extremal {
+
+class CandidateSearch;
+
+/// What is wished of a metric: a value that it stays below.
+struct Wish {
+    std::string metric;
+    double value = 0;
+    bool operator==(const Wish&) const = default;
+};
 
 struct SweepOptions {
     std::string metric = "error";
@@ -30,11 +39,19 @@ struct SweepOptions {
     int repeat = 5;                      ///< timed runs of a point; 0: costs in calls alone
     std::vector<std::string> only = {};  ///< labels of schemes; empty: all that are enabled
     Shard shard = {};
-    /// Above 0: each scheme is one point, the largest step (or tolerance) found with an error of at most
-    /// this.
+    /// Above 0: each scheme is one point, what a search for the cheapest with an error of at most this finds
+    /// of it (search/candidate_search.hpp).
     double wantedError = 0;
+    std::vector<Wish> wishes = {};  ///< of a search: others that must hold as well
+    bool hasAllCandidates = false;  ///< of a search: not only the scene's own schemes
+    double searchSeconds = 0;       ///< of CPU; 0: 1 s where runs are timed, else no limit
+    /// Of a ladder of wishes, from the largest down: one point for each, the cheapest of all schemes.
+    std::vector<double> rungs = {};
     unsigned threads = 0;  ///< 0: as many as the machine has cores
 };
+
+/// 0.1, 0.01, ... 1e-12.
+std::vector<double> usualRungs();
 
 /// A point and what came out of it; status `waiting` where it has not been run.
 struct SweepRow {
@@ -49,7 +66,15 @@ public:
 
     const ResolvedScene& scene() const { return scene_; }
     const SweepOptions& options() const { return options_; }
-    const Metric& metric() const { return metric_; }
+    const Metric& metric() const { return metrics_.front(); }
+    /// Of joint wishes all, the one above first.
+    const std::vector<Metric>& metrics() const { return metrics_; }
+    /// What is wished of them, in the same order.
+    std::vector<Wish> wishes() const;
+    /// Of all candidates: those that do not accept the system.
+    const std::vector<RefusedCandidate>& refused() const { return refused_; }
+    /// Whether a scheme is one of the scene, not a candidate that was added.
+    bool isOfScene(std::size_t scheme) const { return scheme < ownSchemes_; }
     std::size_t size() const { return rows_.size(); }
     /// Of all points, in order: scheme by scheme, from the largest step down.
     const std::vector<SweepRow>& rows() const { return rows_; }
@@ -59,7 +84,10 @@ public:
     bool isComplete() const;
 
     /// A point that is known already.
-    void take(std::size_t point, PointResult result) { rows_[point].result = std::move(result); }
+    void take(std::size_t point, PointResult result) {
+        if (!options_.rungs.empty()) rows_[point].point.scheme = result.scheme;
+        rows_[point].result = std::move(result);
+    }
     /// The reference of points that are known already.
     void take(ReferenceInfo reference) { reference_ = std::move(reference); }
     /// Runs what is not known and belongs to the shard. `onPoint` is called for each point that was not
@@ -75,15 +103,25 @@ public:
 private:
     void addOwnPoint(std::size_t scheme);
     void addLadder(std::size_t scheme);
-    using Run = std::function<PointResult(const StudyPoint&, int repeat)>;
-    std::vector<Prospect> prospects(const Run& run, const std::stop_token& stop) const;
-    PointResult search(const StudyPoint& point, const Prospect& prospect, double least, const Run& run) const;
+    void addSearched();
+    bool isSearch() const { return options_.wantedError != 0 || !options_.rungs.empty(); }
+    void climb(CandidateSearch& search, const std::vector<std::size_t>& wanted,
+               const std::function<void(std::size_t, const PointResult&)>& onPoint,
+               const std::stop_token& stop);
+    void checkOptions() const;
+    void runSearch(const std::vector<std::size_t>& wanted,
+                   const std::function<void(const ReferenceInfo&)>& onReference,
+                   const std::function<void(std::size_t, const PointResult&)>& onPoint,
+                   const std::stop_token& stop);
 
     ResolvedScene scene_;
     SweepOptions options_;
-    Metric metric_;
+    std::size_t ownSchemes_ = 0;
+    std::vector<RefusedCandidate> refused_;
+    std::vector<Metric> metrics_;
     std::vector<SweepRow> rows_;
-    std::vector<double> steps_;  ///< that the reference must know: a row of it each
+    std::vector<SweepRow> searched_;  ///< of a ladder of wishes: the schemes that it is climbed with
+    std::vector<double> steps_;       ///< that the reference must know: a row of it each
     ReferenceInfo reference_;
     StudyProgress progress_;
 };

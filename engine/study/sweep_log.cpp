@@ -11,6 +11,35 @@ namespace {
 
 long long count(const std::string& text) { return static_cast<long long>(parseNumber(text).value_or(0)); }
 
+/// A text as one cell: without commas.
+std::string withoutCommas(std::string text) {
+    for (std::size_t at = 0; (at = text.find_first_of("%,\n", at)) != std::string::npos; at += 3)
+        text.replace(at, 1, text[at] == '%' ? "%25" : text[at] == ',' ? "%2C" : "%0A");
+    return text;
+}
+std::string withCommas(std::string text) {
+    for (std::size_t at = 0; (at = text.find('%', at)) != std::string::npos; ++at) {
+        const std::string code = text.substr(at, 3);
+        text.replace(at, 3, code == "%2C" ? "," : code == "%0A" ? "\n" : "%");
+    }
+    return text;
+}
+
+std::string errorsText(const std::vector<double>& errors) {
+    std::string text;
+    for (const double error : errors) text += (text.empty() ? "" : " ") + formatNumber(error);
+    return text;
+}
+std::vector<double> errorsOf(const std::string& text) {
+    std::vector<double> all;
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t blank = std::min(text.find(' ', from), text.size());
+        all.push_back(cellNumber(text.substr(from, blank - from)));
+        from = blank + 1;
+    }
+    return all;
+}
+
 std::string pointLine(std::size_t index, const PointResult& r) {
     std::string line =
         "point," + std::to_string(index) + ',' + name(r.status) + ',' + std::string(name(r.cause));
@@ -20,11 +49,13 @@ std::string pointLine(std::size_t index, const PointResult& r) {
         line += ',' + std::to_string(value);
     line += cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
     line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes);
-    return line + cellsText({r.unreducedWork, r.timesCheapest});
+    line += cellsText({r.unreducedWork, r.timesCheapest, r.excess, r.floor, r.confirmedAt});
+    return line + ',' + r.floorOf + ',' + withoutCommas(r.reason) + ',' + errorsText(r.errors) + ',' +
+           std::to_string(r.scheme);
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
-    if (cells.size() != 20) return {};
+    if (cells.size() != 27) return {};
     PointResult r;
     r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
     r.cause = outcomeOf(cells[3]);
@@ -40,6 +71,13 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.reduction = {static_cast<int>(count(cells[16])), static_cast<int>(count(cells[17]))};
     r.unreducedWork = cellNumber(cells[18]);
     r.timesCheapest = cellNumber(cells[19]);
+    r.excess = cellNumber(cells[20]);
+    r.floor = cellNumber(cells[21]);
+    r.confirmedAt = cellNumber(cells[22]);
+    r.floorOf = cells[23];
+    r.reason = withCommas(cells[24]);
+    r.errors = errorsOf(cells[25]);
+    r.scheme = cellIndex(cells[26]);
     return r;
 }
 
@@ -61,6 +99,12 @@ Value optionsValue(const SweepOptions& options) {
     value.set("repeat", options.repeat);
     value.set("only", arrayOf(options.only));
     value.set("error", options.wantedError);
+    Value::Array wishes;
+    for (const Wish& wish : options.wishes) wishes.push_back(Value::Array{wish.metric, wish.value});
+    value.set("wishes", wishes);
+    value.set("all candidates", options.hasAllCandidates);
+    value.set("search time", options.searchSeconds);
+    value.set("rungs", arrayOf(options.rungs));
     return value;
 }
 
@@ -75,6 +119,11 @@ SweepOptions optionsOf(const Value& value) {
     options.repeat = static_cast<int>(value.find("repeat")->asNumber());
     options.only = textsOf(*value.find("only"));
     options.wantedError = value.find("error")->asNumber();
+    for (const Value& wish : value.find("wishes")->asArray())
+        options.wishes.push_back({wish.asArray()[0].asString(), wish.asArray()[1].asNumber()});
+    options.hasAllCandidates = value.find("all candidates")->asBool();
+    options.searchSeconds = value.find("search time")->asNumber();
+    options.rungs = numbersOf(*value.find("rungs"));
     return options;
 }
 

@@ -4,7 +4,9 @@
 ///     {"extremal": 1, "study": "convergence", "options": {..}, "scene": "<fingerprint>"}
 ///     point,<index>,<status>,<cause>,<failed_at>,<error>,<steps>,<iterations>,<evaluations>,<linear solves>,
 ///           <rejected>,<cpu_seconds>,<cpu_spread>,<predicted>,<step>,<tolerance>,
-///           <degree>,<nodes>,<work without reduction>
+///           <degree>,<nodes>,<work without reduction>,<times the cheapest>,<excess>,<floor>,
+///           <confirmed at>,<floor of>,<reason>,<errors of joint wishes, with blanks between them>,
+///           <scheme of a ladder>
 ///     reference,<type>,<estimated_error>
 #pragma once
 

@@ -24,6 +24,9 @@ struct StudyOptions {
     int repeat = 5;                      ///< timed runs of each point; 0: no times
     std::vector<std::string> only = {};  ///< labels of schemes; empty: all that are enabled
     unsigned threads = 0;
+    std::vector<std::string> wishes = {};  ///< cheapest: "METRIC=VALUE", all of which must hold
+    std::string candidates = {};           ///< cheapest, needs: "scene", or "all" schemes that accept it
+    std::string searchTime = {};           ///< cheapest: CPU time of the search ("2s"); empty: the usual one
 };
 
 struct Table {

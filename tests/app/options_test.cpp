@@ -59,6 +59,7 @@ QStringList callOf(const QString& verb) {
         {"study convergence", words("study convergence s.json --repeat 0")},
         {"study work-precision", words("study work-precision s.json --repeat 0")},
         {"study cheapest", words("study cheapest s.json --repeat 0")},
+        {"study needs", words("study needs s.json --repeat 0")},
         {"study stability", words("study stability s.json")},
         {"study linear-stability", words("study linear-stability s.json")},
         {"study extremes", words("study extremes --shard 1/1000")},
@@ -81,6 +82,7 @@ QStringList needsOf(const QString& verb) {
         {"passport", words("--no-measure")},
         {"program", words("--out p.cpp")},
         {"study cheapest", words("--error 1e-2 --out d")},
+        {"study needs", words("--wish 1e-2 --candidates scene --out d")},
         {"study stability", words("--x /schemes/*/step=0.1:1:2 --out d")},
         {"atlas", words("--out d")},
         {"wisdom", words("--modes 8 --out w")},
@@ -108,6 +110,8 @@ Sample sampleOf(const QString& verb, const QString& option) {
     }
     if (option == "--measure") return {{"--measure"}, {"--no-measure"}};
     if (option == "--error") return replaced("1e-2", "1e-3");
+    if (verb == "study needs" && option == "--wish") return replaced("1e-2", "1e-3");
+    if (verb == "study needs" && option == "--candidates") return replaced("scene", "all");
     if (option == "--x") return replaced("/schemes/*/step=0.1:1:2", "/schemes/*/step=0.1:1:3");
     if (option == "--modes") return added(words("--modes 16"));
     if (option == "--points")
@@ -147,6 +151,9 @@ Sample sampleOf(const QString& verb, const QString& option) {
         {"--metric", words("--metric energy")},
         {"--final", words("--final")},
         {"--repeat", words("--repeat -1")},
+        {"--wish", words("--wish energy=1e-5")},
+        {"--candidates", words("--candidates all")},
+        {"--search-time", words("--search-time soon")},
         {"--steps", words("--steps 0.2,0.1")},
         {"--from", words("--from 0.2 --to 0.1")},
         {"--to", words("--from 0.2 --to 0.1")},
@@ -235,7 +242,7 @@ private:
             const std::string head = R"({ "extremal": 1, "study": "other", "scene": "0" })";
             const QByteArray log = QByteArray::fromStdString(head + ' ' + checksum(head) + '\n');
             QVERIFY(QDir(folder_.path()).mkdir("d"));
-            for (const char* study : {"convergence", "work-precision", "cheapest", "stability",
+            for (const char* study : {"convergence", "work-precision", "cheapest", "needs", "stability",
                                       "linear-stability", "extremes", "harmonic-oscillator.error"})
                 write(QString("d/%1.log").arg(study), log);
             for (const char* slug : {"a", "b"})

@@ -47,6 +47,7 @@ SweptScheme sweepOf(const ResolvedScene& scene, const SchemeSpec& spec, const st
     const double own = spec.tolerance ? *spec.tolerance : spec.step.value,
                  wide = spec.tolerance ? 100 : stepRatio;
     SweepOptions options;
+    options.metric = "column:error";  // as the runs beside it have it, whatever the units
     options.ladder = {{}, own * wide, own / wide, sweptPoints};
     options.repeat = 1;
     options.only = {spec.label};

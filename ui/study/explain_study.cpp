@@ -16,12 +16,7 @@ namespace {
 QString say(const char* text) { return QCoreApplication::translate("explain", text); }
 
 /// The unit of what a sweep measures: that of the column its observable declares as its extreme.
-std::string unitOfMetric(const Sweep& sweep) {
-    const ResolvedScene& scene = sweep.scene();
-    const Observer observer = sweep.metric().observable->bind({*scene.system, scene.initial, {}});
-    const int extreme = observer.extreme;
-    return extreme >= 0 ? observer.columns[static_cast<std::size_t>(extreme)].unit : std::string();
-}
+std::string unitOfMetric(const Sweep& sweep) { return sweep.metric().unit(); }
 
 QString withReference(const ReferenceInfo& reference) {
     if (reference.description.empty()) return say("The reference is not known yet.");
@@ -37,11 +32,20 @@ QString errorText(const Sweep& sweep) {
     const QString where = metric.isAtEnd ? say("at the last node of the run")
                                          : say("the largest over all nodes of the run"),
                   in = unit.empty() ? say("without a unit") : say("in %1").arg(QString::fromStdString(unit));
-    QString text = metric.name == "error"
-                       ? say("Distance from the reference, %1, %2.").arg(where, in)
-                       : say("Size of what the observable %1 measures, %2, %3.")
-                             .arg(QString::fromStdString(metric.observable->item.id), where, in);
-    if (metric.observable->needsReference) text += '\n' + withReference(sweep.reference());
+    const MetricTerm& first = metric.terms.front();
+    QString text =
+        say("Size of what the observable %1 measures, %2, %3.")
+            .arg(QString::fromStdString(first.observable ? first.observable->item.id : first.column), where,
+                 in);
+    if (metric.name == "error" && metric.isSum)
+        text = say("Distance from the reference, %1: of each coordinate over its own size there (1 rad for "
+                   "an angle), the root of the mean of their squares.")
+                   .arg(where);
+    else if (metric.name == "error")
+        text = say("Distance from the reference, %1, %2.").arg(where, in);
+    else if (metric.isSum || first.hasScale)
+        text = say("%1, %2.").arg(QString::fromStdString(metric.name), where);
+    if (metric.needsReference()) text += '\n' + withReference(sweep.reference());
     return text;
 }
 
@@ -98,6 +102,12 @@ QString ofSweep(const Sweep& sweep, const std::string& column) {
             "What the wanted error needs of the scheme, found by a search over steps and degrees; else "
             "why the search ended.");
     if (is("status")) return say("How the run ended.");
+    if (is("down to")) return say("The smallest wish that this scheme is the cheapest for.");
+    if (is("model"))
+        return say("What a reduced model has in place of the system; empty where nothing is left out.");
+    if (is("times the one above"))
+        return say("What these digits cost, over what the fewer digits above cost.");
+    if (is("all errors")) return say("Of joint wishes, the largest value of every metric.");
     if (is("scheme")) return say("The scheme of the scene, by its label.");
     if (is("worth its cost"))
         return say(

@@ -34,11 +34,12 @@ std::vector<Edit> editsForRun(const Scene& scene, const std::string& label,
 
 std::vector<Edit> editsForScheme(Scene scene, const SchemeSpec& scheme) {
     const int index = indexOfScheme(scene, scheme.label);
-    if (index < 0) return {};
-    const auto at = static_cast<std::size_t>(index);
+    const std::size_t at = index < 0 ? scene.schemes.size() : static_cast<std::size_t>(index);
+    if (index < 0) scene.schemes.emplace_back();
     scene.schemes[at] = scheme;
     scene.schemes[at].isEnabled = true;
-    return {{"/schemes/" + std::to_string(index), toValue(scene).find("schemes")->asArray()[at]}};
+    return {{"/schemes/" + (index < 0 ? "-" : std::to_string(index)),
+             toValue(scene).find("schemes")->asArray()[at]}};
 }
 
 }  // namespace extremal

@@ -23,7 +23,7 @@ std::vector<Edit> editsForPoint(const Scene& scene, const std::string& label, do
 std::vector<Edit> editsForRun(const Scene& scene, const std::string& label,
                               const std::vector<std::pair<std::string, double>>& numbers);
 
-/// Puts a scheme in the place of the one with its label; empty where the scene has none.
+/// Puts a scheme in the place of the one with its label, or adds it where the scene has none.
 std::vector<Edit> editsForScheme(Scene scene, const SchemeSpec& scheme);
 
 }  // namespace extremal

@@ -80,7 +80,8 @@ void StudyForm::openChoices() {
 void StudyForm::showOptions() {
     using Over = StudyEntry::Over;
     const StudyEntry& entry = chosen();
-    const bool hasMetric = entry.over == Over::steps || entry.over == Over::wantedError;
+    const bool hasMetric =
+        entry.over == Over::steps || entry.over == Over::wantedError || entry.over == Over::wishes;
     for (QWidget* each : std::initializer_list<QWidget*>{metricLabel_, metric_, isAtEnd_})
         each->setVisible(hasMetric);
     findsLimits_->setVisible(entry.over == Over::numbers);
@@ -102,7 +103,7 @@ void StudyForm::offerMetrics(const ResolvedScene& resolved) {
     QStringList names;
     for (const std::string& name : metricNames(*resolved.system, resolved.initial))
         if (hasReference ||
-            metricOf(name, false, *resolved.system, resolved.initial).observable->needsReference == false)
+            metricOf(name, false, *resolved.system, resolved.initial).needsReference() == false)
             names << QString::fromStdString(name);
     QStringList present;
     for (int i = 0; i < metric_->count(); ++i) present << metric_->itemText(i);
@@ -135,6 +136,10 @@ Study StudyForm::study(const ResolvedScene& resolved, double wantedError) const 
     options.metric = metric_->currentText().toStdString();
     options.isAtEnd = isAtEnd_->isChecked();
     if (over == Over::wantedError) options.wantedError = wantedError;
+    if (over == Over::wishes) {
+        options.rungs = usualRungs();
+        options.hasAllCandidates = true;
+    }
     return Sweep(resolved, options);
 }
 

@@ -418,7 +418,8 @@ StudyPage::LoadableRun StudyPage::runOfRow(std::size_t row) const {
         const SweepRow& point = sweep->rows()[row];
         LoadableRun run{sweep->scene().scene.schemes[point.point.scheme].label,
                         stepOrTolerance(point.result.step, point.result.tolerance)};
-        if (point.result.reduction)
+        // One that the scene does not have is added.
+        if (point.result.reduction || !sweep->isOfScene(point.point.scheme))
             run.scheme = schemeAt(sweep->scene(), point.point.scheme, point.result).spec;
         return run;
     }

@@ -5,42 +5,21 @@
 #include <cmath>
 #include <set>
 
-#include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
-#include "engine/family/scheme.hpp"
 #include "engine/run/reference/error_floor.hpp"
 #include "engine/scene/preset.hpp"
 #include "engine/scene/write/codec.hpp"
+#include "engine/study/search/candidates.hpp"
 #include "engine/study/search/proposal.hpp"
 
 namespace extremal {
 namespace {
 
-/// Named schemes at their degrees and baselines with their defaults, as a scene names them.
-std::vector<Value> everyScheme(const AtlasOptions& options) {
-    const std::set<int> degrees = options.isQuick ? std::set{1, 2} : std::set{1, 2, 3, 4, 6, 8};
-    std::vector<Value> all;
-    for (const SchemeEntry& entry : schemeCatalog())
-        for (int degree = entry.minDegree; degree <= entry.maxDegree; ++degree) {
-            if (entry.maxDegree > 0 && !degrees.contains(degree)) continue;
-            std::string id = entry.item.id;
-            if (const auto at = id.find('<'); at != std::string::npos)
-                id = id.substr(0, at) + std::to_string(degree);
-            all.push_back(Value::Object{{"label", id}, {"scheme", id}});
-        }
-    for (const BaselineEntry& entry : baselineCatalog()) {
-        Value scheme(Value::Object{{"label", entry.item.title}, {"baseline", entry.item.id}});
-        if (entry.isAdaptive()) scheme.set("tolerance", 1e-6);
-        all.push_back(std::move(scheme));
-    }
-    return all;
-}
-
 /// Those that the scene accepts with this step, without a warning of instability.
 Value::Array fittingSchemes(Value document, double step, const AtlasOptions& options) {
     Value::Array fitting;
-    for (Value scheme : everyScheme(options)) {
+    for (Value scheme : everyScheme(options.isQuick ? std::set{1, 2} : std::set{1, 2, 3, 4, 6, 8})) {
         if (!scheme.find("tolerance")) scheme.set("step", step);
         document.set("schemes", Value::Array{scheme});
         const ReadScene read = readScene(document);
@@ -97,7 +76,7 @@ AtlasSystem atlasSystem(const std::string& preset, const AtlasOptions& options) 
         if (std::find(known.begin(), known.end(), metric) == known.end()) continue;
         const bool isError = std::string_view(metric) == "error";
         SweepOptions sweep;
-        sweep.metric = metric;
+        sweep.metric = isError ? "column:error" : metric;  // as runs write it, whatever the units
         sweep.ladder.steps = isError ? steps : std::vector<double>{system.step};
         sweep.repeat = !isError ? 0 : options.isQuick ? 1 : 3;
         sweep.threads = options.threads;

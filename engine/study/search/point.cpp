@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "engine/core/problem.hpp"
-#include "engine/run/march/march_grid.hpp"
 #include "engine/run/march/motion_check.hpp"
+#include "engine/run/march/march_grid.hpp"
 #include "engine/run/march/state_values.hpp"
 #include "engine/run/march/timing.hpp"
 #include "engine/scene/outlook/two_positions.hpp"
@@ -19,48 +20,96 @@ namespace {
 
 constexpr double shortest = 2e-3, longest = 2;  ///< seconds: of one measurement, of all of a point
 
-/// Largest size over all nodes, or that of the last one, of the observer's extreme.
+/// Largest size over all nodes, or that of the last one, of every metric.
 class Measured {
 public:
-    Measured(const ObservableEntry& entry, Observer observer, const System& system, const State& start,
-             bool isAtEnd)
-        : observer_(std::move(observer)), isAtEnd_(isAtEnd) {
-        state_ = StateValues(entry, observer_, system, start);
+    Measured(std::span<const Metric> metrics, const ObserveContext& context, bool hasReference)
+        : values(metrics.size(), PointResult::unknown), metrics_(metrics) {
+        for (const Metric& metric : metrics) {
+            const bool isKnown = hasReference || !metric.needsReference();
+            std::vector<Place> places;
+            for (const MetricTerm& term : metric.terms)
+                if (isKnown)
+                    places.push_back({term.observable ? observerOf(term, context) : none, term.index});
+            places_.push_back(std::move(places));
+        }
     }
 
-    /// How many nodes are those of a motion, by their values, which are computed here. `motion`: that of the
-    /// run, where the values are energies.
-    std::size_t soundNodes(const NodeBlock& nodes, MotionCheck* motion) {
-        const std::size_t width = observer_.columns.size();
-        values_.resize(std::max(values_.size(), width * nodes.capacity()), PointResult::unknown);
-        observer_.evaluate(nodes, values_.data(), width);
-        const std::size_t sound = state_.finiteNodes(nodes, values_.data(), width);
-        for (std::size_t i = 0; i < sound && motion; ++i) motion->noteEnergy(nodes.t(i), values_[i * width]);
+    /// How many nodes are those of a motion, by their values, which are computed here. `check`: that of the
+    /// run, where the energy is among them.
+    std::size_t soundNodes(const NodeBlock& nodes, MotionCheck* check) {
+        std::size_t sound = nodes.size();
+        for (Observed& each : observed_) {
+            const std::size_t width = each.observer.columns.size();
+            each.values.resize(std::max(each.values.size(), width * nodes.capacity()), PointResult::unknown);
+            each.observer.evaluate(nodes, each.values.data(), width);
+            sound = std::min(sound, each.state.finiteNodes(nodes, each.values.data(), width));
+            if (check && each.entry->item.id == "energy")
+                for (std::size_t i = 0; i < sound; ++i) check->noteEnergy(nodes.t(i), each.values[i * width]);
+        }
         return sound;
     }
     void see(const NodeBlock& nodes) {
-        const std::size_t width = observer_.columns.size();
-        const double* column = values_.data() + observer_.extreme;
-        for (std::size_t i = 0; i < nodes.size(); ++i) {
-            const double size = std::abs(column[i * width]);
-            if (isAtEnd_ || !(size <= value)) value = std::isnan(size) && !isAtEnd_ ? value : size;
+        for (std::size_t m = 0; m < metrics_.size(); ++m) {
+            const std::vector<Place>& places = places_[m];
+            terms_.resize(places.size());
+            for (std::size_t i = 0; i < nodes.size() && !places.empty(); ++i) {
+                for (std::size_t k = 0; k < places.size(); ++k) terms_[k] = valueAt(places[k], nodes, i);
+                note(values[m], metrics_[m].combined(terms_), metrics_[m].isAtEnd);
+            }
         }
     }
-    bool readsQuantities() const { return observer_.readsQuantities; }
+    bool readsQuantities() const {
+        return std::any_of(observed_.begin(), observed_.end(),
+                           [](const Observed& each) { return each.observer.readsQuantities; });
+    }
 
-    double value = PointResult::unknown;
+    std::vector<double> values;  ///< of each metric
 
 private:
-    Observer observer_;
-    StateValues state_;
-    bool isAtEnd_;
-    std::vector<double> values_;
+    static constexpr auto none = static_cast<std::size_t>(-1);
+    struct Observed {
+        const ObservableEntry* entry;
+        Observer observer;
+        StateValues state;
+        std::vector<double> values = {};
+    };
+    struct Place {
+        std::size_t observer;  ///< none: an entry of the state
+        std::size_t index;
+    };
+
+    std::size_t observerOf(const MetricTerm& term, const ObserveContext& context) {
+        for (std::size_t i = 0; i < observed_.size(); ++i)
+            if (observed_[i].entry == term.observable) return i;
+        Observer observer = term.observable->bind(context);
+        StateValues state(*term.observable, observer, context.system, context.initial);
+        observed_.push_back({term.observable, std::move(observer), std::move(state)});
+        return observed_.size() - 1;
+    }
+    double valueAt(const Place& place, const NodeBlock& nodes, std::size_t i) const {
+        if (place.observer == none) return nodes.x(i)[place.index];
+        const Observed& each = observed_[place.observer];
+        return each.values[i * each.observer.columns.size() + place.index];
+    }
+    static void note(double& value, double size, bool isAtEnd) {
+        if (isAtEnd || !(size <= value)) value = std::isnan(size) && !isAtEnd ? value : size;
+    }
+
+    std::span<const Metric> metrics_;
+    std::vector<Observed> observed_;
+    std::vector<std::vector<Place>> places_;  ///< of the terms of each metric; empty: not known
+    std::vector<double> terms_;
 };
 
 ResolvedScheme withStep(ResolvedScheme scheme, double step, double tolerance) {
     if (step > 0) scheme.spec.step = {step, {}};
     if (tolerance > 0) scheme.spec.tolerance = tolerance;
     return scheme;
+}
+
+double workOf(const Cost& cost, long long steps, int nodes) {
+    return static_cast<double>(cost.evaluations > 0 ? cost.evaluations : steps * std::max(1, nodes));
 }
 
 class PointRun {
@@ -75,30 +124,39 @@ public:
           reduction_(point.reduction),
           stop_(stop) {}
 
-    PointResult measure(const Metric& metric, ExactSolution reference) {
+    PointResult measure(std::span<const Metric> metrics, ExactSolution reference, const CostLimit& limit) {
         PointResult result;
         const auto integrator = integrator_->clone();
-        const bool isKnown = !metric.observable->needsReference || reference;
-        Measured measured(*metric.observable,
-                          metric.observable->bind({system_, start_, std::move(reference), scheme_.plain(),
-                                                   step_, integrator->quantities()}),
-                          system_, start_, metric.isAtEnd);
-        const auto see = [&](const Stretch& stretch) {
-            if (isKnown) measured.see(stretch.nodes);
-            return true;
+        const bool hasReference = static_cast<bool>(reference);
+        Measured measured(
+            metrics,
+            {system_, start_, std::move(reference), scheme_.plain(), step_, integrator->quantities()},
+            hasReference);
+        const int nodes = richnessOf(scheme_).nodes;
+        const auto isWorthMore = [&](const Stretch& stretch) {
+            return stretch.soFar.cpuSeconds <= limit.seconds &&
+                   workOf(stretch.soFar.cost, stretch.state.node, nodes) <= limit.work;
         };
-        const bool isOfEnergy = metric.observable->item.id == "energy";
-        MotionCheck motion(system_, start_, step_, isOfEnergy);
-        const auto soundNodes = [&](const NodeBlock& nodes) {
-            return isKnown ? measured.soundNodes(nodes, isOfEnergy ? &motion : nullptr) : nodes.size();
+        const auto see = [&](const Stretch& stretch) {
+            measured.see(stretch.nodes);
+            return isWorthMore(stretch);
+        };
+        const bool isOfEnergy =
+            std::any_of(metrics.begin(), metrics.end(), [](const Metric& m) { return m.reads("energy"); });
+        MotionCheck check(system_, start_, step_, isOfEnergy);
+        const auto soundNodes = [&](const NodeBlock& block) {
+            return measured.soundNodes(block, isOfEnergy ? &check : nullptr);
         };
         const MarchSink sink{see, false, measured.readsQuantities(), soundNodes};
         State state = start_;
         warmUp(*integrator, state, grid_, stop_);
-        MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop_, &motion);
-        if (report.outcome == Outcome::converged && motion.hasShifted()) report.outcome = Outcome::lost;
+        MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop_, &check);
+        if (report.outcome == Outcome::converged && check.hasShifted()) report.outcome = Outcome::lost;
         // At the start alone there is nothing of the scheme to measure.
-        result.error = state.node > start_.node ? measured.value : PointResult::unknown;
+        if (state.node > start_.node) {
+            result.error = measured.values.front();
+            if (metrics.size() > 1) result.errors = measured.values;
+        }
         result.steps = state.node;
         result.cost = report.cost;
         result.step = step_;
@@ -106,13 +164,34 @@ public:
         result.tolerance = scheme_.isAdaptive() ? scheme_.spec.tolerance.value_or(0) : 0;
         result.cpuSeconds = report.cpuSeconds;
         result.cause = report.outcome;
-        if (report.outcome == Outcome::converged) {
+        result.isCutOff = report.isEndedBySink && report.outcome == Outcome::converged && !hasEnded(state);
+        if (report.outcome == Outcome::converged && !result.isCutOff) {
             result.status = RunStatus::done;
         } else {
             result.status = report.outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
             result.failedAt = state.t;
         }
         return result;
+    }
+
+    StepCost tryOut(long long steps) const {
+        MarchGrid grid = grid_;
+        const bool isFixed = scheme_.isFixed();
+        if (isFixed) grid.steps = std::min(grid.steps, steps);
+        grid.budget = steps;
+        const auto integrator = integrator_->clone();
+        State state = start_;
+        warmUp(*integrator, state, grid, stop_);
+        const MarchReport report = march(*integrator, state, grid, {}, stop_);
+        StepCost cost;
+        const bool isUsable = report.outcome == Outcome::converged || report.outcome == Outcome::stepBudget;
+        if (!isUsable || state.node == 0) return cost;
+        const auto taken = static_cast<double>(state.node);
+        cost.seconds = report.cpuSeconds / taken;
+        cost.work = workOf(report.cost, state.node, richnessOf(scheme_).nodes) / taken;
+        cost.steps = isFixed ? static_cast<double>(grid_.steps)
+                             : taken * std::abs((grid_.end - start_.t) / (state.t - start_.t));
+        return cost;
     }
 
     /// `first`: what the measured run took, observers apart.
@@ -125,6 +204,12 @@ public:
     }
 
 private:
+    /// The last block has reached the end, so that nothing was cut off.
+    bool hasEnded(const State& state) const {
+        return scheme_.isFixed() ? state.node >= grid_.steps
+                                 : grid_.ahead() * (grid_.end - state.t) <= 1e-9 * std::abs(grid_.end);
+    }
+
     ResolvedScheme scheme_;
     const System& system_;
     double step_;
@@ -137,10 +222,7 @@ private:
 
 }  // namespace
 
-double workOf(const PointResult& result, int nodes) {
-    return static_cast<double>(result.cost.evaluations > 0 ? result.cost.evaluations
-                                                           : result.steps * std::max(1, nodes));
-}
+double workOf(const PointResult& result, int nodes) { return workOf(result.cost, result.steps, nodes); }
 
 ResolvedScheme schemeOf(const ResolvedScene& scene, const StudyPoint& point) {
     return reduced(scene.schemes[point.scheme], point.reduction, scene);
@@ -152,10 +234,16 @@ ResolvedScheme schemeAt(const ResolvedScene& scene, std::size_t scheme, const Po
 
 PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, const Metric& metric,
                      ExactSolution reference, int repeat, const std::stop_token& stop) {
+    return runPoint(scene, point, {&metric, 1}, std::move(reference), repeat, {}, stop);
+}
+
+PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, std::span<const Metric> metrics,
+                     ExactSolution reference, int repeat, const CostLimit& limit,
+                     const std::stop_token& stop) {
     PointResult result;
     try {
         PointRun run(scene, point, stop);
-        result = run.measure(metric, std::move(reference));
+        result = run.measure(metrics, std::move(reference), limit);
         if (result.isDone() && repeat > 0) run.time(repeat, result.cpuSeconds, result);
     } catch (const InvalidScene& e) {
         result.status = RunStatus::failed;
@@ -165,6 +253,15 @@ PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, const 
     }
     if (stop.stop_requested()) result.status = RunStatus::partial;
     return result;
+}
+
+StepCost tryPoint(const ResolvedScene& scene, const StudyPoint& point, long long steps,
+                  const std::stop_token& stop) {
+    try {
+        return PointRun(scene, point, stop).tryOut(steps);
+    } catch (const InvalidScene&) {
+        return {};
+    }
 }
 
 }  // namespace extremal

@@ -9,8 +9,10 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "engine/core/outcome.hpp"
 #include "engine/model/exact_solution.hpp"
@@ -34,8 +36,9 @@ struct PointResult {
     RunStatus status = RunStatus::waiting;
     Outcome cause = Outcome::converged;
     double failedAt = unknown;
-    double error = unknown;          ///< the metric; of a failed run up to its last node
-    double step = 0, tolerance = 0;  ///< where it was measured: of the point, or what a search found
+    double error = unknown;           ///< the metric; of a failed run up to its last node
+    std::vector<double> errors = {};  ///< of joint wishes, all metrics, the one above first; else empty
+    double step = 0, tolerance = 0;   ///< where it was measured: of the point, or what a search found
     Reduction reduction = {};
     double unreducedWork = unknown;  ///< of a reduced scheme: what the error takes of the scheme as it is
     /// Of a search that was given up: the evaluations that the wanted error takes, over those of the cheapest
@@ -46,9 +49,28 @@ struct PointResult {
     double cpuSeconds = unknown;        ///< median
     double predictedSeconds = unknown;  ///< of a search: what a trial of a few steps says of the run
     double cpuSpread = unknown;         ///< half the distance between the fastest and the slowest repetition
-    std::string reason;                 ///< of a refused point, in words; not exported
+    bool isCutOff = false;              ///< by a limit of its cost
+    // Of a search:
+    std::size_t scheme = 0;        ///< of a ladder of wishes: which one answers
+    double excess = unknown;       ///< log of the largest error over what is wished of it
+    double floor = unknown;        ///< the error below which nothing is known of the scheme
+    std::string floorOf;           ///< "reference", "round-off", "mesh", "model"; empty: unknown
+    double confirmedAt = unknown;  ///< the finer step or tolerance at which the wish was reached as well
+    std::string reason;            ///< why it was refused, or what the search found, in words
 
     bool isDone() const { return status == RunStatus::done; }
+};
+
+/// Where a run is cut off, as it is not worth more.
+struct CostLimit {
+    double seconds = std::numeric_limits<double>::infinity();
+    double work = std::numeric_limits<double>::infinity();  ///< as workOf()
+};
+
+/// What a step costs at the beginning of a run, from a few of them; unknown where one of them fails.
+struct StepCost {
+    double seconds = PointResult::unknown, work = PointResult::unknown;
+    double steps = 0;  ///< that the whole run takes, if all are as long
 };
 
 /// Evaluations, or where none are counted, steps times nodes: a cost that is the same on every machine.
@@ -62,5 +84,12 @@ ResolvedScheme schemeAt(const ResolvedScene& scene, std::size_t scheme, const Po
 /// none. Status `partial` where it was stopped.
 PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, const Metric& metric,
                      ExactSolution reference, int repeat, const std::stop_token& stop);
+/// The same of several metrics in one run.
+PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, std::span<const Metric> metrics,
+                     ExactSolution reference, int repeat, const CostLimit& limit,
+                     const std::stop_token& stop);
+/// Of at most so many steps.
+StepCost tryPoint(const ResolvedScene& scene, const StudyPoint& point, long long steps,
+                  const std::stop_token& stop);
 
 }  // namespace extremal

@@ -6,9 +6,20 @@
 #include "engine/core/known_value.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/study/catalog.hpp"
+#include "engine/study/studies/model_in_place.hpp"
 
 namespace extremal::studies {
 namespace {
+
+const std::vector<std::string>& cheapestColumns() {
+    static const std::vector<std::string> names{
+        "rank",        "label",       "step",     "predicted_cpu_seconds",
+        "cpu_seconds", "evaluations", "error",    "kept",
+        "left_out",    "tolerance",   "status",   "model_left_out",
+        "excess",      "floor",       "floor_of", "confirmed_at",
+        "reason",      "errors"};
+    return names;
+}
 
 /// The rows by their CPU time, those that do not reach the error last.
 std::vector<const SweepRow*> ranked(const Sweep& sweep) {
@@ -44,9 +55,10 @@ std::string keptOf(const Sweep& sweep, const SweepRow& row) {
 /// What of the scene it does without: degrees, nodes, steps, and observables that the metric does not need;
 /// and what the smaller scheme saves, against the largest step of the scheme as it is.
 std::string leftOutOf(const Sweep& sweep, const SweepRow& row) {
-    if (row.result.timesCheapest > 0)
-        return "given up: would take " + formatNumber(std::floor(row.result.timesCheapest)) +
-               " times the evaluations of the cheapest, or more";
+    constexpr double givenUp = 100;
+    if (!row.result.isDone() && row.result.timesCheapest >= givenUp)
+        return "given up: would take " + formatNumber(std::floor(row.result.timesCheapest)) + " times the " +
+               (sweep.options().repeat == 0 ? "evaluations" : "time") + " of the cheapest";
     if (!row.result.isDone()) return "";
     std::vector<std::string> all;
     if (const Reduction kept = row.result.reduction; kept) {
@@ -64,9 +76,19 @@ std::string leftOutOf(const Sweep& sweep, const SweepRow& row) {
         all.push_back(std::to_string(before - row.result.steps) + " of " + std::to_string(before) + " steps");
     }
     for (const std::string& id : sweep.scene().scene.observe)
-        if (id != sweep.metric().observable->item.id) all.push_back("observable " + id);
+        if (std::none_of(sweep.metrics().begin(), sweep.metrics().end(),
+                         [&](const Metric& m) { return m.reads(id); }))
+            all.push_back("observable " + id);
     std::string text;
     for (const std::string& each : all) text += (text.empty() ? "" : "; ") + each;
+    return text;
+}
+
+/// Of joint wishes: "error 3.1e-7; energy 2e-9".
+std::string errorsOf(const Sweep& sweep, const PointResult& r) {
+    std::string text;
+    for (std::size_t i = 0; i < r.errors.size() && i < sweep.metrics().size(); ++i)
+        text += (text.empty() ? "" : "; ") + sweep.metrics()[i].name + ' ' + formatNumber(r.errors[i], 3);
     return text;
 }
 
@@ -79,16 +101,31 @@ std::vector<Value::Array> rowsOfPrices(const Sweep& sweep) {
                        sweep.scene().scene.schemes[row->point.scheme].label, positiveNumber(r.step),
                        positiveNumber(r.predictedSeconds), knownNumber(r.cpuSeconds),
                        static_cast<double>(r.cost.evaluations), knownNumber(r.error), keptOf(sweep, *row),
-                       leftOutOf(sweep, *row), positiveNumber(r.tolerance), name(r.status)});
+                       leftOutOf(sweep, *row), positiveNumber(r.tolerance), name(r.status),
+                       modelInPlace(sweep, row->point.scheme), knownNumber(r.excess), knownNumber(r.floor),
+                       knownText(r.floorOf), knownNumber(r.confirmedAt), r.reason, errorsOf(sweep, r)});
+    }
+    for (const RefusedCandidate& refused : sweep.refused()) {
+        Value::Array row(cheapestColumns().size(), Value(nullptr));
+        row[1] = refused.label;
+        row[10] = name(RunStatus::failed);
+        row[16] = "refused: " + refused.reason;
+        all.push_back(std::move(row));
     }
     return all;
 }
 
 std::vector<Value::Array> summaryOfPrices(const Sweep& sweep) {
-    std::vector<Value::Array> all = rowsOfPrices(sweep);
-    for (Value::Array& row : all) {
-        if (row[7].asString().empty()) row[7] = row[8];  // why nothing is kept
-        row.erase(row.begin() + 8);                      // what is left out is long
+    std::vector<Value::Array> all;
+    for (const Value::Array& row : rowsOfPrices(sweep)) {
+        if (row[7].isNull()) break;  // the refused ones, of which there are many
+        const bool isReached = row[0].isNumber();
+        all.push_back({row[0], row[1], row[2], row[3], row[4], row[5], row[6],
+                       isReached                   ? row[7]
+                       : row[8].asString().empty() ? row[16]
+                                                   : row[8],
+                       row[9], row[10], row[17]});
+        if (isReached && sweep.options().hasAllCandidates) all.back()[7] = row[16];
     }
     return all;
 }
@@ -99,17 +136,16 @@ StudyEntry cheapest() {
     StudyEntry e;
     e.item = {"cheapest",
               "The cheapest scheme",
-              "For a wanted error (--error), the largest step and the smallest degree of every scheme that "
-              "reach it, ranked by CPU time.",
+              "For a wanted error (--error), or several wishes (--wish), the largest step and the smallest "
+              "degree of every scheme that reach it, ranked by CPU time; of the schemes of the scene, or of "
+              "all that accept it (--candidates all).",
               {},
               {},
               ""};
-    e.columns = {"rank",        "label",       "step",  "predicted_cpu_seconds",
-                 "cpu_seconds", "evaluations", "error", "kept",
-                 "left_out",    "tolerance",   "status"};
+    e.columns = cheapestColumns();
     e.rows = rowsOfPrices;
-    e.summaryColumns = {"rank",        "scheme", "step", "predicted cpu", "cpu seconds",
-                        "evaluations", "error",  "kept", "tolerance",     "status"};
+    e.summaryColumns = {"rank",  "scheme", "step",      "predicted cpu", "cpu seconds", "evaluations",
+                        "error", "kept",   "tolerance", "status",        "all errors"};
     e.summary = summaryOfPrices;
     e.summaryPoints = ranked;
     e.over = StudyEntry::Over::wantedError;

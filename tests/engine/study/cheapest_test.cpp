@@ -17,6 +17,30 @@
 namespace extremal::cheapest_test {
 namespace {
 
+/// A pendulum on a stiff spring, of which the angle alone is wanted.
+ResolvedScene stiffSpring() {
+    return *readScene(std::string(R"({"extremal":1,"model":{"type":"spring-pendulum","k":1e6},
+        "initial":{"q":[0.005,1],"p":[0,0]},"time":{"end":10},"observe":["energy"],
+        "schemes":[{"label":"Verlet","step":0.001,"baseline":"stormer-verlet"}]})"))
+                .resolved;
+}
+
+/// Of a search over all candidates, with counted costs.
+SweepOptions amongAll(double wanted) {
+    SweepOptions options;
+    options.metric = "error.theta";
+    options.wantedError = wanted;
+    options.hasAllCandidates = true;
+    options.repeat = 0;
+    return options;
+}
+
+/// The index of a column of cheapest.csv.
+std::size_t columnOf(const StudyTable& table, const std::string& name) {
+    const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+    return static_cast<std::size_t>(found - table.columns.begin());
+}
+
 ResolvedScene presetOf(const char* id) { return *readScene(findPreset(id)->json).resolved; }
 
 double workAt(const ResolvedScheme& scheme, const PointResult& result) {
@@ -119,6 +143,87 @@ private slots:
         Sweep alone(scene, options);
         alone.run({}, {}, {});
         QVERIFY(alone.rows()[0].result.isDone());
+    }
+    /// Only what a scene requires: a model without the spring, which no scheme of the scene has. (Counted in
+    /// evaluations, the averaged one and the rod differ in their steps alone.)
+    void aReducedModelIsTheCheapestForTheAngle() {
+        Sweep search(stiffSpring(), amongAll(1e-3));
+        QVERIFY(search.size() >= 25 && search.isOfScene(0) && !search.isOfScene(1));
+        search.run({}, {}, {});
+        const StudyTable table = tablesOf(*findStudy("cheapest"), search).front();
+        const std::size_t reason = columnOf(table, "reason"), model = columnOf(table, "model_left_out"),
+                          error = columnOf(table, "error"), excess = columnOf(table, "excess");
+        const Value::Array& first = table.rows.front();
+        QCOMPARE(first[1].asString(), "averaged");
+        QVERIFY(first[model].asString().ends_with("in place of spring-pendulum"));
+        QVERIFY(first[error].asNumber() <= 1e-3);
+        QVERIFY(std::abs(first[excess].asNumber() - std::log(first[error].asNumber() / 1e-3)) < 1e-12);
+        QVERIFY(first[columnOf(table, "confirmed_at")].asNumber() < first[2].asNumber());
+        QCOMPARE(first[reason].asString(), "the cheapest");
+        // Everyone else has a reason, and those that do not take the system are there as well.
+        std::size_t refused = 0;
+        for (const Value::Array& row : table.rows) {
+            QVERIFY2(row.size() == table.columns.size() && !row[reason].asString().empty(),
+                     row[1].asString().c_str());
+            refused += row[reason].asString().starts_with("refused: ");
+        }
+        QVERIFY(refused > 10 && refused == search.refused().size());
+        // A model that leaves something out has a floor, which is called so.
+        Sweep finer(stiffSpring(), amongAll(1e-5));
+        finer.run({}, {}, {});
+        bool isFloorNamed = false;
+        for (const SweepRow& row : finer.rows())
+            if (finer.scene().schemes[row.point.scheme].spec.label == "rigid-pendulum") {
+                qInfo("rod: %s", row.result.reason.c_str());
+                isFloorNamed = row.result.floorOf == "model" && row.result.floor > 1e-4;
+            }
+        QVERIFY(isFloorNamed);
+    }
+    /// Counted costs are the same every time: so are all answers.
+    void aSearchByCountsIsRepeated() {
+        const auto found = [] {
+            Sweep search(presetOf("kepler"), [] {
+                SweepOptions options = amongAll(1e-5);
+                options.metric = "error";
+                return options;
+            }());
+            search.run({}, {}, {});
+            std::string text;
+            for (const SweepRow& row : search.rows())
+                text += QString("%1 %2 %3\n")
+                            .arg(row.result.step, 0, 'g', 17)
+                            .arg(row.result.error, 0, 'g', 17)
+                            .arg(QString::fromStdString(row.result.reason))
+                            .toStdString();
+            return text;
+        };
+        QCOMPARE(found(), found());
+    }
+    /// A ladder: fewer digits let more be left out.
+    void theLadderLeavesOutWhatItCan() {
+        SweepOptions options = amongAll(0);
+        options.rungs = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
+        Sweep ladder(stiffSpring(), options);
+        std::vector<std::string> lines;
+        runLines(ladder, [&](const std::string& line) { lines.push_back(line); }, {});
+        QVERIFY(ladder.isComplete() && ladder.size() == 5);
+        std::vector<std::string> labels;
+        double before = 0;
+        for (std::size_t i = 0; i < ladder.size(); ++i) {
+            const SweepRow& row = ladder.rows()[i];
+            const std::string& label = ladder.scene().schemes[row.point.scheme].spec.label;
+            qInfo("%.0e: %s, %lld steps, %g", options.rungs[i], label.c_str(), row.result.steps,
+                  row.result.error);
+            QVERIFY(row.result.isDone() && row.result.error <= options.rungs[i]);
+            if (labels.empty() || labels.back() != label) labels.push_back(label);
+            QVERIFY(workOf(row.result, 1) >= before);
+            before = workOf(row.result, 1);
+        }
+        QCOMPARE(labels, (std::vector<std::string>{"averaged", "multiscale-r1", "multiscale-r2"}));
+        Sweep copy(stiffSpring(), options);
+        for (const std::string& line : lines) (void)takeLine(line, copy);
+        const StudyEntry& study = *findStudy("needs");
+        QCOMPARE(csvText(tablesOf(study, copy).front()), csvText(tablesOf(study, ladder).front()));
     }
     void whatIsTooRichIsReduced() {
         // Six nodes for degree 2, for three digits.

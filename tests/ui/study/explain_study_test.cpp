@@ -52,6 +52,12 @@ private slots:
                     explainsAll(entry, Sweep(shortKepler(), options));
                     break;
                 }
+                case StudyEntry::Over::wishes: {
+                    SweepOptions options;
+                    options.rungs = {1e-2, 1e-4};
+                    explainsAll(entry, Sweep(shortKepler(), options));
+                    break;
+                }
                 case StudyEntry::Over::numbers: {
                     StabilityOptions options;
                     options.x = {"/schemes/*/step", 0.01, 1, 3, true};

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/study/search/candidate_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "engine/core/text/text.hpp"
+#include "engine/core/thread_clock.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/outlook/cost.hpp"
+#include "engine/study/search/ladder.hpp"
+
+namespace extremal {
+namespace {
+
+/// A scheme of the scene is given up where it would cost so many times the cheapest.
+constexpr double mostTimesTheLeast = 100;
+
+/// "3.2 times dearer".
+std::string dearer(double times) { return formatNumber(times, times < 10 ? 2 : 3) + " times dearer"; }
+
+}  // namespace
+
+CandidateSearch::CandidateSearch(const ResolvedScene& scene, std::vector<SearchedScheme> schemes,
+                                 std::vector<Metric> metrics, References references, ReferenceInfo reference,
+                                 bool isCounted, double seconds, const std::stop_token& stop)
+    : scene_(scene),
+      schemes_(std::move(schemes)),
+      metrics_(std::move(metrics)),
+      references_(std::move(references)),
+      reference_(std::move(reference)),
+      isCounted_(isCounted),
+      seconds_(seconds),
+      length_(timeSpan(scene.scene).length()),
+      stop_(stop),
+      entries_(schemes_.size()) {}
+
+StudyPoint CandidateSearch::pointAt(const StudyPoint& own, const ResolvedScheme& scheme, double n) const {
+    StudyPoint point = own;
+    if (scheme.isAdaptive())
+        point.tolerance = 1 / n;
+    else if (!hasStepOfItsSpace(scene_, scheme))
+        point.step = length_ / n;
+    return point;
+}
+
+/// Where errors end that the reference allows to be seen, in the metric.
+double CandidateSearch::floorOf(std::size_t metric) const {
+    const Metric& m = metrics_[metric];
+    if (!m.needsReference() || !std::isfinite(reference_.estimatedError)) return 0;
+    return m.combined(std::vector<double>(m.terms.size(), reference_.estimatedError));
+}
+
+double CandidateSearch::excessOf(const PointResult& result, std::span<const double> wishes) const {
+    constexpr double least = 1e-300;
+    double most = -HUGE_VAL;
+    for (std::size_t i = 0; i < wishes.size(); ++i) {
+        const double value = result.errors.empty() ? result.error : result.errors[i];
+        if (!result.isDone() || !std::isfinite(value)) return HUGE_VAL;
+        most = std::max(most, std::log(std::max(value, least) / wishes[i]));
+    }
+    return most;
+}
+
+/// An error as large as a fifth of the motion says nothing of the order.
+bool CandidateSearch::isSaturated(const PointResult& result) const {
+    constexpr double part = 0.2;
+    for (std::size_t i = 0; i < metrics_.size(); ++i) {
+        const double value = result.errors.empty() ? result.error : result.errors[i];
+        if (value > part * metrics_[i].size()) return true;
+    }
+    return false;
+}
+
+/// A few steps at each of several lengths: a step that is too long for its equations costs more than shorter
+/// ones do.
+void CandidateSearch::findStart(const StudyPoint& own, const ResolvedScheme& scheme, RaceEntry& entry) {
+    constexpr long long steps = 3;
+    if (scheme.isAdaptive()) {
+        // Its first steps tell nothing of the others, which may be much longer.
+        entry.firstN = 10;
+        return;
+    }
+    double least = HUGE_VAL;
+    for (const double n : {6.0, 24.0, 96.0}) {
+        const StepCost cost = tryPoint(scene_, pointAt(own, scheme, n), steps, stop_);
+        const double whole = n * (isCounted_ ? cost.work : cost.seconds);
+        if (std::isfinite(whole)) entry.trials.emplace_back(n, whole);
+        if (whole < least) {
+            least = whole;
+            entry.firstN = n;
+        }
+        if (std::isfinite(least) && whole > 3 * least) break;  // as long as steps cost the same, n decides
+    }
+    entry.firstCost = std::isfinite(least) ? least : 0;
+}
+
+RaceEntry CandidateSearch::entryFor(const StudyPoint& own, const ResolvedScheme& scheme) {
+    RaceEntry entry;
+    entry.isAdaptive = scheme.isAdaptive();
+    entry.order = entry.isAdaptive ? 1 : scheme.claims.order > 0 ? scheme.claims.order : 2;
+    entry.isSingle = hasStepOfItsSpace(scene_, scheme);
+    if (entry.isSingle)
+        entry.firstN = std::max(1.0, std::round(length_ / own.step));
+    else
+        findStart(own, scheme, entry);
+    return entry;
+}
+
+RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& scheme, const RaceJob& job,
+                               std::span<const double> wishes) {
+    const Key key{own.scheme, own.reduction.degree, own.reduction.nodes, job.n};
+    auto known = known_.find(key);
+    if (known == known_.end() || (known->second.result.isCutOff && known->second.cost < job.limit)) {
+        // Before anyone has reached the wish, a run that goes wrong must not take all the time there is.
+        constexpr double tooLong = 16, fewSeconds = 1e-3, littleWork = 1e4;
+        CostLimit limit;
+        (isCounted_ ? limit.work : limit.seconds) =
+            std::min(job.limit, tooLong * job.predictedCost + (isCounted_ ? littleWork : fewSeconds));
+        limit.seconds = std::min(limit.seconds, std::max(seconds_ - spent_, fewSeconds));
+        Known made;
+        made.result =
+            runPoint(scene_, pointAt(own, scheme, job.n), metrics_, references_(own), 0, limit, stop_);
+        const int nodes = richnessOf(schemeAt(scene_, own.scheme, made.result)).nodes;
+        made.cost = isCounted_ ? workOf(made.result, nodes) : made.result.cpuSeconds;
+        ++runs_;
+        known = known_.insert_or_assign(key, std::move(made)).first;
+    }
+    const auto& [result, cost] = known->second;
+    RaceRun run{job.n, excessOf(result, wishes), cost, false, result.isCutOff, false};
+    run.isSaturated = run.excess > 0 && isSaturated(result);
+    run.isAtFloor = result.cause == Outcome::refused;
+    for (std::size_t i = 0; i < wishes.size() && run.excess > 0 && result.isDone(); ++i) {
+        const double value = result.errors.empty() ? result.error : result.errors[i];
+        run.isAtFloor = run.isAtFloor || (value > wishes[i] && value <= floorOf(i));
+    }
+    return run;
+}
+
+void CandidateSearch::drive(CandidateRace& race, const std::function<RaceRun(const RaceJob&)>& run) {
+    while (!stop_.stop_requested() && !isTimeUp()) {
+        const double begin = threadSeconds();
+        const std::optional<RaceJob> job = race.next();
+        if (!job) return;
+        race.take(*job, run(*job));
+        spent_ += threadSeconds() - begin;
+    }
+}
+
+const PointResult& CandidateSearch::knownAt(const StudyPoint& point, double n) const {
+    return known_.at({point.scheme, point.reduction.degree, point.reduction.nodes, n}).result;
+}
+
+/// The fewest evaluations among smaller degrees and numbers of nodes, with the steps with which they could be
+/// cheaper.
+void CandidateSearch::reduce(std::size_t index, std::span<const double> wishes, PointResult& result) {
+    const ResolvedScheme& whole = schemeOf(index);
+    const Reduction has = richnessOf(whole);
+    if (!has || isTimeUp()) return;
+    std::vector<StudyPoint> points{schemes_[index].point};
+    std::vector<ResolvedScheme> variants{whole};
+    std::vector<RaceEntry> entries(1);
+    const auto n = static_cast<double>(result.steps);
+    const double cost = known_.at({points[0].scheme, 0, 0, n}).cost;
+    entries[0].isSingle = true;
+    entries[0].firstN = n;
+    for (const Reduction& reduction : reductionsOf(whole, scene_)) {
+        StudyPoint less = schemes_[index].point;
+        less.reduction = reduction;
+        points.push_back(less);
+        variants.push_back(extremal::schemeOf(scene_, less));
+        RaceEntry entry;
+        entry.order = std::max(1, variants.back().claims.order);
+        entry.firstN = n;
+        entry.firstCost = cost * reduction.nodes / has.nodes;
+        // With more steps it could not be cheaper, even if its nodes took half as many evaluations.
+        entry.mostN = 2 * n * has.nodes / reduction.nodes;
+        entries.push_back(entry);
+    }
+    CandidateRace race(entries);
+    drive(race,
+          [&](const RaceJob& job) { return runOf(points[job.entry], variants[job.entry], job, wishes); });
+    const auto winner = race.winner();
+    if (!winner || *winner == 0) return;
+    const RaceRun& best = race.runsOf(*winner)[*race.bestOf(*winner)];
+    const double work = workOf(result, has.nodes), excess = best.excess;
+    result = knownAt(points[*winner], best.n);
+    result.unreducedWork = work;
+    result.excess = excess;
+}
+
+/// A model that leaves something out of the system.
+bool CandidateSearch::isReduced(std::size_t index) const {
+    const BaselineEntry* const baseline = schemeOf(index).baseline;
+    const auto& reduced = scene_.system->reduced;
+    return baseline && std::any_of(reduced.begin(), reduced.end(),
+                                   [&](const auto& r) { return r.id == baseline->item.id; });
+}
+
+/// Its name, where an error that does not fall has reached one.
+void CandidateSearch::nameFloor(std::size_t index, PointResult& result) const {
+    const ResolvedScheme& scheme = schemeOf(index);
+    const double seen = floorOf(0);
+    result.floor = result.error;
+    constexpr double roundOff = 2.2e-15;
+    if (result.error <= seen)
+        result.floorOf = "reference", result.floor = seen;
+    else if (isReduced(index))
+        result.floorOf = "model";
+    else if (scheme.orderInSpace() > 0)
+        result.floorOf = "mesh";
+    else if (result.error < roundOff * metrics_[0].size() * static_cast<double>(std::max(1LL, result.steps)))
+        result.floorOf = "round-off";
+}
+
+std::string CandidateSearch::reasonOf(const CandidateRace& race, std::size_t index,
+                                      const PointResult& nearest) const {
+    const std::vector<RaceRun>& runs = race.runsOf(index);
+    switch (race.endOf(index)) {
+        case RaceEnd::reached:
+            return "reached at single steps only: a finer one fails";
+        case RaceEnd::dearer: {
+            if (!(race.predictedN(index) > 0)) return "would be dearer than the cheapest";
+            const double times = nearest.timesCheapest;
+            const std::string needs =
+                schemeOf(index).isAdaptive()
+                    ? "would need a tolerance of about " + formatNumber(1 / race.predictedN(index), 2)
+                    : "would need about " + formatNumber(race.predictedN(index), 2) + " steps";
+            return needs + (times > 0 ? ", " + dearer(times) : "");
+        }
+        case RaceEnd::cutOff:
+            return "first run dearer than the answer";
+        case RaceEnd::failing: {
+            if (runs.empty() || std::isfinite(runs.back().excess))
+                return "no run below the best cost has an error smaller than the motion";
+            const PointResult& last = knownAt(schemes_[index].point, runs.back().n);
+            return "no run without failure below the best cost: " + std::string(name(last.cause));
+        }
+        case RaceEnd::stalled:
+            if (nearest.floorOf.empty())
+                return "its error stays at " + formatNumber(nearest.error, 2) + " below the best cost";
+            [[fallthrough]];
+        case RaceEnd::atFloor:
+            if (nearest.cause == Outcome::refused) return "refused: " + nearest.reason;
+            return "ends at " + formatNumber(nearest.error, 2) +
+                   (nearest.floorOf.empty() ? "" : " (" + nearest.floorOf + ")");
+        case RaceEnd::exhausted:
+            return "does not reach it within " + formatNumber(runs.empty() ? 0 : runs.back().n, 2) +
+                   (schemeOf(index).isAdaptive() ? " = 1/tolerance" : " steps");
+        case RaceEnd::open:
+            break;
+    }
+    return isTimeUp() ? "the search ended after " + formatNumber(seconds_, 2) + " s" : "not searched";
+}
+
+PointResult CandidateSearch::resultOf(const CandidateRace& race, std::size_t index) const {
+    const StudyPoint& point = schemes_[index].point;
+    const std::vector<RaceRun>& runs = race.runsOf(index);
+    double least = HUGE_VAL;
+    if (const auto winner = race.winner()) least = race.runsOf(*winner)[*race.bestOf(*winner)].cost;
+    if (const auto best = race.bestOf(index)) {
+        const RaceRun& run = runs[*best];
+        PointResult result = knownAt(point, run.n);
+        result.excess = run.excess;
+        const double confirmed = race.confirmedAt(index);
+        if (confirmed > 0)
+            result.confirmedAt = schemeOf(index).isAdaptive() ? 1 / confirmed : length_ / confirmed;
+        result.reason = run.cost > least ? "reached, " + dearer(run.cost / least) : "the cheapest";
+        return result;
+    }
+    // The nearest run to its end; else any that says how it failed.
+    const auto nearest = std::min_element(
+        runs.begin(), runs.end(), [](const RaceRun& a, const RaceRun& b) { return a.excess < b.excess; });
+    PointResult result;
+    if (nearest != runs.end()) result = knownAt(point, nearest->n);
+    result.excess = nearest != runs.end() ? nearest->excess : PointResult::unknown;
+    result.status = RunStatus::failed;
+    if (race.predictedCost(index) > 0 && std::isfinite(least))
+        result.timesCheapest = race.predictedCost(index) / least;
+    const bool isModel = race.endOf(index) == RaceEnd::stalled && isReduced(index);
+    if ((race.endOf(index) == RaceEnd::atFloor || isModel) && result.cause != Outcome::refused)
+        nameFloor(index, result);
+    result.reason = reasonOf(race, index, result);
+    return result;
+}
+
+void CandidateSearch::timeOne(std::size_t index, PointResult& r, int repeat) {
+    StudyPoint at = schemes_[index].point;
+    at.step = r.step;
+    at.tolerance = r.tolerance;
+    at.reduction = r.reduction;
+    // A run that takes long is timed by itself: repetitions would take longer than the search.
+    constexpr double longest = 0.1;
+    const int times = static_cast<int>(std::min<double>(repeat, longest / std::max(r.cpuSeconds, 1e-9)));
+    if (times > 0) {
+        const PointResult timed = runPoint(scene_, at, metrics_, references_(at), times, {}, stop_);
+        r.cpuSeconds = timed.cpuSeconds;
+        r.cpuSpread = timed.cpuSpread;
+    }
+    r.predictedSeconds = predictSeconds(scene_, schemeAt(scene_, at.scheme, r));
+}
+
+/// Those of the scene, and the best three of all.
+void CandidateSearch::time(std::vector<PointResult>& results, int repeat) {
+    constexpr std::size_t most = 3;
+    std::vector<std::size_t> reached;
+    for (std::size_t i = 0; i < results.size(); ++i)
+        if (results[i].isDone()) reached.push_back(i);
+    std::sort(reached.begin(), reached.end(),
+              [&](std::size_t a, std::size_t b) { return results[a].cpuSeconds < results[b].cpuSeconds; });
+    for (std::size_t place = 0; place < reached.size() && !stop_.stop_requested(); ++place)
+        if (place < most || schemes_[reached[place]].isOfScene)
+            timeOne(reached[place], results[reached[place]], repeat);
+}
+
+CandidateRace CandidateSearch::raceFor(std::span<const double> wishes) {
+    std::vector<RaceEntry> entries;
+    for (std::size_t i = 0; i < schemes_.size() && !stop_.stop_requested(); ++i) {
+        const double begin = threadSeconds();
+        if (!entries_[i]) entries_[i] = entryFor(schemes_[i].point, schemeOf(i));
+        spent_ += threadSeconds() - begin;
+        entries.push_back(*entries_[i]);
+        entries.back().mostTimes = schemes_[i].isOfScene ? mostTimesTheLeast : 1;
+    }
+    CandidateRace race(entries);
+    if (!stop_.stop_requested())
+        drive(race, [&](const RaceJob& job) {
+            return runOf(schemes_[job.entry].point, schemeOf(job.entry), job, wishes);
+        });
+    return race;
+}
+
+std::vector<PointResult> CandidateSearch::find(std::span<const double> wishes, int repeat) {
+    std::vector<PointResult> results(schemes_.size());
+    const CandidateRace race = raceFor(wishes);
+    if (stop_.stop_requested()) return results;
+    for (std::size_t i = 0; i < schemes_.size(); ++i) results[i] = resultOf(race, i);
+    for (std::size_t i = 0; i < schemes_.size(); ++i)
+        if (schemes_[i].isOfScene && results[i].isDone() && !entries_[i]->isSingle &&
+            !entries_[i]->isAdaptive)
+            reduce(i, wishes, results[i]);
+    time(results, repeat);
+    return results;
+}
+
+std::pair<std::size_t, PointResult> CandidateSearch::cheapest(std::span<const double> wishes, int repeat) {
+    const CandidateRace race = raceFor(wishes);
+    if (stop_.stop_requested()) return {};
+    if (const auto winner = race.winner()) {
+        PointResult result = resultOf(race, *winner);
+        timeOne(*winner, result, repeat);
+        return {*winner, result};
+    }
+    std::pair<std::size_t, PointResult> nearest{0, resultOf(race, 0)};
+    for (std::size_t i = 1; i < schemes_.size(); ++i)
+        if (PointResult r = resultOf(race, i);
+            r.excess < nearest.second.excess || std::isnan(nearest.second.excess))
+            nearest = {i, std::move(r)};
+    return nearest;
+}
+
+}  // namespace extremal

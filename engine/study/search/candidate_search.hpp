@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The cheapest of some schemes for a wish, by a race (candidate_race.hpp), and of each scheme of the scene
+/// the smallest degree and the fewest nodes that are enough.
+///
+/// Costs are CPU seconds, or, where runs are not timed, evaluations (steps times nodes where none are
+/// counted), which are the same on every machine: so is then everything that is found. Runs are remembered: a
+/// second wish begins with those of the first.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <span>
+#include <stop_token>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "engine/run/comparison.hpp"
+#include "engine/study/search/candidate_race.hpp"
+#include "engine/study/search/point.hpp"
+
+namespace extremal {
+
+/// A scheme that is searched.
+struct SearchedScheme {
+    StudyPoint point;  ///< as the scene has it
+    /// Searched while it costs at most so many times the cheapest, and with smaller degrees: a scheme of the
+    /// scene. Else while it may be the cheapest.
+    bool isOfScene = true;
+};
+
+class CandidateSearch {
+public:
+    /// A reference to run a point against.
+    using References = std::function<ExactSolution(const StudyPoint&)>;
+
+    /// `seconds`: of CPU for all searches together; infinity: no limit. `isCounted`: costs are evaluations.
+    CandidateSearch(const ResolvedScene& scene, std::vector<SearchedScheme> schemes,
+                    std::vector<Metric> metrics, References references, ReferenceInfo reference,
+                    bool isCounted, double seconds, const std::stop_token& stop);
+
+    /// One result per scheme: what reaches the wishes, one per metric, at the lowest cost, with status done;
+    /// else the nearest, with status failed and the reason. Those that reach it are timed `repeat` times,
+    /// of schemes that are not of the scene the best three.
+    std::vector<PointResult> find(std::span<const double> wishes, int repeat);
+
+    /// The cheapest alone, timed `repeat` times, and its index among the schemes; where no scheme
+    /// reaches the wishes the nearest, with status failed.
+    std::pair<std::size_t, PointResult> cheapest(std::span<const double> wishes, int repeat);
+
+    int runs() const { return runs_; }
+    double secondsSpent() const { return spent_; }
+    bool isTimeUp() const { return spent_ >= seconds_; }
+
+private:
+    struct Known {
+        PointResult result;
+        double cost = 0;
+    };
+    using Key = std::tuple<std::size_t, int, int, double>;  ///< scheme, degree, nodes, n
+
+    const ResolvedScheme& schemeOf(std::size_t index) const {
+        return scene_.schemes[schemes_[index].point.scheme];
+    }
+    StudyPoint pointAt(const StudyPoint& own, const ResolvedScheme& scheme, double n) const;
+    CandidateRace raceFor(std::span<const double> wishes);
+    RaceEntry entryFor(const StudyPoint& own, const ResolvedScheme& scheme);
+    void findStart(const StudyPoint& own, const ResolvedScheme& scheme, RaceEntry& entry);
+    RaceRun runOf(const StudyPoint& own, const ResolvedScheme& scheme, const RaceJob& job,
+                  std::span<const double> wishes);
+    void drive(CandidateRace& race, const std::function<RaceRun(const RaceJob&)>& run);
+    void reduce(std::size_t index, std::span<const double> wishes, PointResult& result);
+    PointResult resultOf(const CandidateRace& race, std::size_t index) const;
+    const PointResult& knownAt(const StudyPoint& point, double n) const;
+    std::string reasonOf(const CandidateRace& race, std::size_t index, const PointResult& nearest) const;
+    bool isReduced(std::size_t index) const;
+    void nameFloor(std::size_t index, PointResult& result) const;
+    void time(std::vector<PointResult>& results, int repeat);
+    void timeOne(std::size_t index, PointResult& result, int repeat);
+    double excessOf(const PointResult& result, std::span<const double> wishes) const;
+    bool isSaturated(const PointResult& result) const;
+    double floorOf(std::size_t metric) const;
+
+    const ResolvedScene& scene_;
+    std::vector<SearchedScheme> schemes_;
+    std::vector<Metric> metrics_;
+    References references_;
+    ReferenceInfo reference_;
+    bool isCounted_;
+    double seconds_, spent_ = 0, length_;
+    std::stop_token stop_;
+    int runs_ = 0;
+    std::vector<std::optional<RaceEntry>> entries_;  ///< with where each begins, once it is known
+    std::map<Key, Known> known_;
+};
+
+}  // namespace extremal

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/study/search/search_reference.hpp"
+
+#include <algorithm>
+
+#include "engine/run/reference/error_floor.hpp"
+
+namespace extremal {
+
+namespace {
+
+/// Momenta inside the steps of a variational reference are not as good as at its nodes, and a table cannot
+/// reproduce them: they count only where errors of momenta do.
+std::size_t comparedEntries(const ResolvedScene& scene, const std::vector<Metric>& metrics) {
+    const bool areMomenta = std::any_of(metrics.begin(), metrics.end(), [](const Metric& m) {
+        return std::any_of(m.terms.begin(), m.terms.end(),
+                           [](const MetricTerm& t) { return t.column == "error.p"; });
+    });
+    const System& system = *scene.system;
+    const bool arePlaces = system.hasCoordinates() && !system.error.evaluate && !areMomenta;
+    return arePlaces ? system.coordinates.size() : scene.initial.x.size();
+}
+
+}  // namespace
+
+SearchReference::SearchReference(const ResolvedScene& scene, const std::vector<Metric>& metrics,
+                                 const std::stop_token& stop)
+    : scene_(&scene), reference_(makeReference(scene, stop)) {
+    constexpr double part = 0.1, roundOff = 1e-14;  // of the reference's own error, of the state
+    const bool isStepped = reference_.info.type == "computed" || reference_.info.type == "scheme";
+    if (!reference_.make || reference_.onMesh.system || !isStepped || stop.stop_requested()) return;
+    const double known = reference_.info.estimatedError, least = roundOff * largestEntry(scene.initial);
+    table_ = TabulatedSolution::of(reference_.make(), scene.scene.start.value, scene.scene.end.value,
+                                   scene.initial.x.size(), comparedEntries(scene, metrics),
+                                   known > 0 ? std::max(part * known, least) : least, stop);
+}
+
+ExactSolution SearchReference::of(const ResolvedScheme& scheme) const {
+    if (!scene_) return {};
+    if (table_ && !scheme.ownSystem) return TabulatedSolution::reader(table_);
+    const Reference own = referenceFor(reference_, *scene_, scheme);
+    return own.make ? own.make() : ExactSolution{};
+}
+
+Metric SearchReference::sized(const Metric& metric, const ResolvedScene& scene) const {
+    const double start = scene.scene.start.value, end = scene.scene.end.value;
+    const std::size_t width = scene.initial.x.size();
+    if (table_) return withSizes(metric, TabulatedSolution::reader(table_), start, end, width);
+    if (reference_.make && !reference_.onMesh.system)
+        return withSizes(metric, reference_.make(), start, end, width);
+    const ExactSolution atStart = [&](double, std::span<double> x) {
+        std::copy(scene.initial.x.begin(), scene.initial.x.end(), x.begin());
+    };
+    return withSizes(metric, atStart, start, start, width);
+}
+
+}  // namespace extremal
