@@ -85,6 +85,10 @@ bool isReached(const StudyEntry& study, const Sweep& sweep, const StudyTable& ta
     if (study.over != StudyEntry::Over::wantedError) return true;
     const auto isDone = [](const SweepRow& row) { return row.result.isDone(); };
     if (std::any_of(sweep.rows().begin(), sweep.rows().end(), isDone)) return true;
+    if (const std::string unjudged = sweep.unjudged(sweep.options().wantedError); !unjudged.empty()) {
+        printProblem("--error", unjudged, "an earlier end (--set /time/end=...), or --metric energy");
+        return false;
+    }
     const Value rows = rowsValue(table);
     std::string nearest = "no scheme ran to the end";
     if (!rows.asArray().empty() && rows.asArray().front().find("error")->isNumber()) {

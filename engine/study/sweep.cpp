@@ -21,6 +21,15 @@ namespace {
 /// Of a reference that is asked itself.
 constexpr std::size_t noRow = std::numeric_limits<std::size_t>::max();
 
+/// No scheme is to blame.
+PointResult notJudged(const std::string& reason) {
+    PointResult result;
+    result.status = RunStatus::failed;
+    result.floorOf = "reference";
+    result.reason = reason;
+    return result;
+}
+
 Metric sized(const Metric& metric, const ResolvedScene& scene, const ExactSolution& solution) {
     return withSizes(metric, solution, scene.scene.start.value, scene.scene.end.value,
                      scene.initial.x.size());
@@ -178,6 +187,11 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
     }
     std::vector<Metric> metrics = metrics_;
     for (Metric& metric : metrics) metric = reference.sized(metric, scene_);
+    progress_.setPreparing(true);
+    confirmation_ = reference.confirmed(metrics.front(), stop);
+    progress_.setPreparing(false);
+    metricSize_ = metrics.front().size();
+    if (stop.stop_requested()) return;
     std::vector<SearchedScheme> schemes;
     for (const SweepRow& row : isLadder ? searched_ : rows_)
         schemes.push_back({row.point, !isLadder && isOfScene(row.point.scheme)});
@@ -193,13 +207,32 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
     if (isLadder) return climb(search, wanted, onPoint, stop);
     std::vector<double> values;
     for (const Wish& wish : wishes()) values.push_back(wish.value);
-    std::vector<PointResult> results = search.find(values, options_.repeat);
+    const std::string reason = unjudged(options_.wantedError);
+    std::vector<PointResult> results = reason.empty()
+                                           ? search.find(values, options_.repeat)
+                                           : std::vector<PointResult>(rows_.size(), notJudged(reason));
     progress_.run(
         wanted, 1, stop, [&](std::size_t i) { return std::move(results[i]); },
         [&](std::size_t i, PointResult result) {
             rows_[i].result = std::move(result);
             if (onPoint) onPoint(i, rows_[i].result);
         });
+}
+
+/// Only where the two methods part altogether: by a thousandth of the motion, as they do where it is chaotic.
+/// A smaller difference may be the error of the other method as well.
+std::string Sweep::unjudged(double wish) const {
+    constexpr double part = 1e-3;
+    const bool isMissing =
+        std::any_of(metrics_.begin(), metrics_.end(), [](const Metric& m) { return m.needsReference(); }) &&
+        reference_.type == "none" && !reference_.problems.empty();
+    if (isMissing) return "there is no reference: " + reference_.problems.front().message;
+    if (!confirmation_ || confirmation_.bound() <= std::max(wish, part * metricSize_)) return {};
+    const Scene& scene = scene_.scene;
+    return "an error of " + formatNumber(wish, 2) +
+           " can be judged to t = " + formatNumber(confirmation_.judgedTo(wish), 3) + " of " +
+           formatNumber(scene.end.value, 3) + ": there the reference and " + confirmation_.by + " part, by " +
+           formatNumber(confirmation_.bound(), 2) + " at the end";
 }
 
 /// From the largest wish down: the runs for one are known to the next.
@@ -209,6 +242,8 @@ void Sweep::climb(CandidateSearch& search, const std::vector<std::size_t>& wante
     progress_.run(
         wanted, 1, stop,
         [&](std::size_t i) {
+            if (const std::string reason = unjudged(options_.rungs[i]); !reason.empty())
+                return notJudged(reason);
             auto [index, result] = search.cheapest({&options_.rungs[i], 1}, options_.repeat);
             result.scheme = searched_[index].point.scheme;
             return result;

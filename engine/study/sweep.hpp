@@ -8,12 +8,14 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "engine/run/comparison.hpp"
+#include "engine/run/reference/confirmation.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/study/progress.hpp"
 #include "engine/study/search/ladder.hpp"
@@ -71,6 +73,10 @@ public:
     const std::vector<Metric>& metrics() const { return metrics_; }
     /// What is wished of them, in the same order.
     std::vector<Wish> wishes() const;
+    /// Of a search: its reference beside a method of another kind.
+    const Confirmation& confirmation() const { return confirmation_; }
+    /// Of a search: why an error this small cannot be judged; empty where it can.
+    std::string unjudged(double wish) const;
     /// Of all candidates: those that do not accept the system.
     const std::vector<RefusedCandidate>& refused() const { return refused_; }
     /// Whether a scheme is one of the scene, not a candidate that was added.
@@ -119,6 +125,8 @@ private:
     std::size_t ownSchemes_ = 0;
     std::vector<RefusedCandidate> refused_;
     std::vector<Metric> metrics_;
+    Confirmation confirmation_;
+    double metricSize_ = std::numeric_limits<double>::infinity();  ///< of the first metric
     std::vector<SweepRow> rows_;
     std::vector<SweepRow> searched_;  ///< of a ladder of wishes: the schemes that it is climbed with
     std::vector<double> steps_;       ///< that the reference must know: a row of it each

@@ -51,14 +51,18 @@ std::optional<std::size_t> CandidateRace::winner() const {
 
 double CandidateRace::limitOf(std::size_t entry) const { return bestCost() * entries_[entry].mostTimes; }
 
+bool CandidateRace::isUnknown(std::size_t entry) const {
+    const std::vector<RaceRun>& runs = states_[entry].runs;
+    return std::none_of(runs.begin(), runs.end(), [](const RaceRun& r) { return std::isfinite(r.excess); });
+}
+
 /// From the nearest run, with the exponent of the last two.
 double CandidateRace::costAt(std::size_t entry, double n) const {
     const RaceEntry& own = entries_[entry];
     const double usual = own.isAdaptive ? 0.15 : 1, least = own.isAdaptive ? 0.03 : 0.4,
                  most = own.isAdaptive ? 0.5 : 1.1;
     const std::vector<RaceRun>& runs = states_[entry].runs;
-    const auto tells = [](const RaceRun& r) { return std::isfinite(r.excess); };
-    if (std::none_of(runs.begin(), runs.end(), tells) && !own.trials.empty()) {
+    if (isUnknown(entry) && !own.trials.empty()) {
         auto at = own.trials.front();
         for (const auto& trial : own.trials)
             if (trial.first <= n) at = trial;
@@ -89,8 +93,12 @@ std::optional<CandidateRace::Plan> CandidateRace::planOf(std::size_t entry) {
     State& s = states_[entry];
     const double limit = limitOf(entry);
     const auto best = bestOf(entry);
-    if (s.again) {
-        if (s.again->second <= limit) return Plan{s.again->first, s.again->second};
+    if (s.again && s.again->second <= limit) return Plan{s.again->first, s.again->second};
+    if (s.again && isUnknown(entry) && !own.trials.empty()) {
+        // Steps that are too long may cost more than shorter ones: as far as trials tell, it goes on.
+        const double n = s.again->first;
+        keep(s, {n, HUGE_VAL, own.firstCost, false, true, false});
+    } else if (s.again) {
         if (best) return drop(entry, RaceEnd::reached);
         if (s.runs.empty()) return drop(entry, RaceEnd::cutOff);
         const RaceRun& last = s.runs.back();
@@ -208,14 +216,6 @@ void CandidateRace::take(const RaceJob& job, const RaceRun& run) {
     if (run.isCutOff) {
         // At the limit it could only be dearer; before that, its cost was not foreseen.
         const bool isAtLimit = run.cost >= limitOf(job.entry);
-        // Steps that are too long may cost more than shorter ones: as far as trials tell, it goes on.
-        const bool isUnknown = std::none_of(s.runs.begin(), s.runs.end(),
-                                            [](const RaceRun& r) { return std::isfinite(r.excess); });
-        if (isAtLimit && isUnknown && !entries_[job.entry].trials.empty()) {
-            RaceRun failed = run;
-            failed.excess = HUGE_VAL;
-            return keep(s, failed);
-        }
         s.again = std::pair{job.n, isAtLimit ? HUGE_VAL : 4 * std::max(run.cost, job.predictedCost)};
         return;
     }

@@ -109,6 +109,8 @@ private:
     std::optional<Plan> finer(std::size_t entry, double limit);
     std::optional<Plan> between(std::size_t entry, double limit);
     double costAt(std::size_t entry, double n) const;
+    /// Whether all runs have failed, so that they tell nothing of costs.
+    bool isUnknown(std::size_t entry) const;
     double limitOf(std::size_t entry) const;
     double bestCost() const;
     std::optional<Plan> drop(std::size_t entry, RaceEnd end, double n = 0);

@@ -248,8 +248,10 @@ std::string CandidateSearch::reasonOf(const CandidateRace& race, std::size_t ind
             return "ends at " + formatNumber(nearest.error, 2) +
                    (nearest.floorOf.empty() ? "" : " (" + nearest.floorOf + ")");
         case RaceEnd::exhausted:
-            return "does not reach it within " + formatNumber(runs.empty() ? 0 : runs.back().n, 2) +
-                   (schemeOf(index).isAdaptive() ? " = 1/tolerance" : " steps");
+            if (runs.empty()) return "not searched";
+            return schemeOf(index).isAdaptive()
+                       ? "does not reach it down to a tolerance of " + formatNumber(1 / runs.back().n, 2)
+                       : "does not reach it within " + formatNumber(runs.back().n, 2) + " steps";
         case RaceEnd::open:
             break;
     }

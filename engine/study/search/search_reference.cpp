@@ -26,13 +26,15 @@ std::size_t comparedEntries(const ResolvedScene& scene, const std::vector<Metric
 SearchReference::SearchReference(const ResolvedScene& scene, const std::vector<Metric>& metrics,
                                  const std::stop_token& stop)
     : scene_(&scene), reference_(makeReference(scene, stop)) {
-    constexpr double part = 0.1, roundOff = 1e-14;  // of the reference's own error, of the state
+    // A part of the reference's own error, which may be that of its end alone: so never more than `most`.
+    constexpr double part = 0.1, roundOff = 1e-14, most = 1e-11;  // the last two of the state
     const bool isStepped = reference_.info.type == "computed" || reference_.info.type == "scheme";
     if (!reference_.make || reference_.onMesh.system || !isStepped || stop.stop_requested()) return;
-    const double known = reference_.info.estimatedError, least = roundOff * largestEntry(scene.initial);
+    const double known = reference_.info.estimatedError, size = largestEntry(scene.initial),
+                 least = roundOff * size;
     table_ = TabulatedSolution::of(reference_.make(), scene.scene.start.value, scene.scene.end.value,
                                    scene.initial.x.size(), comparedEntries(scene, metrics),
-                                   known > 0 ? std::max(part * known, least) : least, stop);
+                                   known > 0 ? std::clamp(part * known, least, most * size) : least, stop);
 }
 
 ExactSolution SearchReference::of(const ResolvedScheme& scheme) const {
@@ -40,6 +42,19 @@ ExactSolution SearchReference::of(const ResolvedScheme& scheme) const {
     if (table_ && !scheme.ownSystem) return TabulatedSolution::reader(table_);
     const Reference own = referenceFor(reference_, *scene_, scheme);
     return own.make ? own.make() : ExactSolution{};
+}
+
+Confirmation SearchReference::confirmed(const Metric& metric, const std::stop_token& stop) const {
+    const bool areErrors = std::all_of(metric.terms.begin(), metric.terms.end(), [](const MetricTerm& t) {
+        return t.observable && t.observable->item.id == "error";
+    });
+    if (!scene_ || !reference_.make || reference_.info.type != "computed" || !areErrors) return {};
+    std::vector<double> of(metric.terms.size());
+    const auto distance = [&metric, of](std::span<const double> values) mutable {
+        for (std::size_t i = 0; i < of.size(); ++i) of[i] = values[metric.terms[i].index];
+        return metric.combined(of);
+    };
+    return confirm(*scene_, table_ ? TabulatedSolution::reader(table_) : reference_.make(), distance, stop);
 }
 
 Metric SearchReference::sized(const Metric& metric, const ResolvedScene& scene) const {

@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "engine/run/reference/confirmation.hpp"
 #include "engine/run/reference/reference.hpp"
 #include "engine/run/reference/tabulated_solution.hpp"
 #include "engine/study/search/metric.hpp"
@@ -24,6 +25,9 @@ public:
     const ReferenceInfo& info() const { return reference_.info; }
     /// For a run of a scheme of the scene; empty where there is none.
     ExactSolution of(const ResolvedScheme& scheme) const;
+    /// Beside a method of another kind, in the metric; empty where there is no such method, or where the
+    /// metric needs no reference.
+    Confirmation confirmed(const Metric& metric, const std::stop_token& stop) const;
     /// The metric with the sizes of what it measures, in this reference; without one, those at the start.
     Metric sized(const Metric& metric, const ResolvedScene& scene) const;
 

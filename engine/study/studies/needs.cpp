@@ -44,17 +44,18 @@ std::vector<Value::Array> rungs(const Sweep& sweep) {
     return all;
 }
 
-/// Rungs with the same answer are one: the finest of them serves them all.
+/// Rungs with the same answer are one: the finest of them serves them all; of those that were not reached the
+/// first.
 std::vector<const SweepRow*> joined(const Sweep& sweep) {
     std::vector<const SweepRow*> all;
     for (const SweepRow& row : sweep.rows()) {
         if (row.result.status == RunStatus::waiting) continue;
         const bool isSame = !all.empty() && all.back()->point.scheme == row.point.scheme &&
                             all.back()->result.isDone() == row.result.isDone();
-        if (isSame)
-            all.back() = &row;
-        else
+        if (!isSame)
             all.push_back(&row);
+        else if (row.result.isDone())
+            all.back() = &row;
     }
     return all;
 }

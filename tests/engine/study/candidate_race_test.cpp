@@ -60,12 +60,11 @@ Raced raced(const std::vector<MadeUp>& all, double wanted) {
     while (const auto job = result.race.next()) {
         const MadeUp& each = all[job->entry];
         const double error = each.error(job->n), cost = each.cost(job->n);
-        RaceRun run{job->n,
-                    std::log(error / wanted),
-                    std::min(cost, job->limit),
-                    error > 0.2 * each.size,
-                    cost > job->limit,
-                    false};
+        // As a search does: what was not foreseen is cut off as well.
+        const double limit = std::min(job->limit, 4 * job->predictedCost + 100);
+        RaceRun run{
+            job->n, std::log(error / wanted), std::min(cost, limit), error > 0.2 * each.size, cost > limit,
+            false};
         if (!std::isfinite(error)) run.excess = failed;
         result.race.take(*job, run);
         ++result.runs;
@@ -147,14 +146,19 @@ private slots:
             QVERIFY(found.longest <= 20 * least);
         }
     }
-    /// A scheme whose equations cannot be solved with long steps, or cost more, must not be judged by them.
+    /// A scheme whose equations cannot be solved with long steps, and takes long to find that out, must not
+    /// be judged by them: a few steps have told that shorter ones are cheaper.
     void aSchemeIsNotDroppedForItsCoarsestStep() {
         MadeUp high = power(1e6, 12, 20);
-        high.cost = [](double n) { return n < 30 ? 400 * 30.0 : 20 * n; };
-        high.entry.firstN = 48;
-        high.entry.firstCost = 960;
-        const Raced found = raced({power(1, 2, 1), high}, 1e-9);
+        high.error = [](double n) { return n < 30 ? failed : 1e6 * std::pow(n, -12); };
+        high.cost = [](double n) { return n < 30 ? 12000 : 20 * n; };
+        high.entry.firstN = 24;
+        high.entry.firstCost = 1000;
+        high.entry.trials = {{24, 1000}};
+        const MadeUp other = power(1, 4, 17);  // 178 steps, at a cost of 3026
+        const Raced found = raced({other, high}, 1e-9);
         QCOMPARE(*found.race.winner(), 1UL);
+        QVERIFY(found.longest < 5000);  // the run with the long step was cut off
     }
     /// One error before the asymptotic regime says nothing: the scheme may take one more step.
     void aSchemeIsNotDroppedOnOnePoint() {

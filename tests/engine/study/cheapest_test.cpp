@@ -225,6 +225,33 @@ private slots:
         const StudyEntry& study = *findStudy("needs");
         QCOMPARE(csvText(tablesOf(study, copy).front()), csvText(tablesOf(study, ladder).front()));
     }
+    /// Where the motion is chaotic the reference and a method of another kind part, and no scheme is blamed.
+    void beyondTheHorizonNothingIsJudged() {
+        for (const double end : {5.0, 20.0}) {
+            Scene scene = presetOf("double-pendulum").scene;
+            scene.end = {end, {}};
+            SweepOptions options;
+            options.wantedError = 1e-4;
+            options.repeat = 0;
+            options.only = {scene.schemes.front().label};
+            Sweep search(resolve(scene), options);
+            search.run({}, {}, {});
+            const std::string unjudged = search.unjudged(1e-4);
+            if (end == 5) {
+                QVERIFY(unjudged.empty() && search.rows().front().result.isDone());
+                QVERIFY(search.confirmation() && search.confirmation().bound() < 1e-9);
+                continue;
+            }
+            qInfo("%s", unjudged.c_str());
+            QVERIFY(unjudged.find("can be judged to t = ") != std::string::npos);
+            // Found: 9.9 to 1e-4, 14 to 1e-3 (the exponent is 1.45 per second).
+            const double horizon = search.confirmation().judgedTo(1e-3);
+            QVERIFY2(horizon > 8 && horizon < 18.5, qPrintable(QString::number(horizon)));
+            QVERIFY(search.confirmation().judgedTo(1e-4) < horizon);
+            QCOMPARE(search.rows().front().result.reason, unjudged);
+            QCOMPARE(search.rows().front().result.floorOf, "reference");
+        }
+    }
     void whatIsTooRichIsReduced() {
         // Six nodes for degree 2, for three digits.
         const ReadScene read = readScene(std::string(
