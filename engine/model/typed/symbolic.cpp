@@ -246,6 +246,9 @@ private:
             p0 = std::exchange(p, whole * p + p0);
             q0 = std::exchange(q, whole * q + q0);
         }
+        return opaqueNumber(value);
+    }
+    ex opaqueNumber(double value) {
         const auto known = numbers_.find(value);
         if (known != numbers_.end()) return known->second;
         return numbers_.emplace(value, Leaf(*this, Leaf::Kind::number, 0, value)).first->second;
@@ -283,7 +286,12 @@ private:
         return GiNaC::mul(factors);
     }
     ex powerOf(const ex& base, const ex& exponent) {
-        if (!is_a<GiNaC::numeric>(exponent)) return GiNaC::pow(base, exponent);
+        if (!is_a<GiNaC::numeric>(exponent)) {
+            // (2^x)^(c/x) and 2^x 2^(c - x) are 2^c, whose exact value has c bits.
+            const bool isFraction = is_a<GiNaC::numeric>(base) && !base.is_zero() && !base.is_equal(1);
+            return GiNaC::pow(isFraction ? opaqueNumber(ex_to<GiNaC::numeric>(base).to_double()) : base,
+                              exponent);
+        }
         const double size = std::fabs(ex_to<GiNaC::numeric>(exponent).to_double());
         const bool isTame = bitsOf(base) * size <= maxBits && size <= 1e6;
         return GiNaC::pow(isTame || is_a<Leaf>(base) ? base : newPart(base), exponent);
