@@ -24,6 +24,7 @@ constexpr std::array<std::pair<const char*, const char*>, 37> greek = {
 /// A name as a letter or word, and an index below it.
 struct SplitName {
     std::string base, index;
+    std::string word;  ///< the base as it was typed: "theta"
 };
 
 SplitName splitName(const std::string& name) {
@@ -37,7 +38,7 @@ SplitName splitName(const std::string& name) {
     } else {
         result.index = name.substr(underscore + 1);
     }
-    result.base = name.substr(0, end);
+    result.base = result.word = name.substr(0, end);
     for (const auto& [word, letter] : greek)
         if (result.base == word) {
             result.base = letter;
@@ -57,6 +58,37 @@ std::string plainIndex(const std::string& index) {
     return text;
 }
 
+/// A function as TeX has it, or sets one that it does not have.
+std::string texFunction(const std::string& name) {
+    static constexpr std::array<std::pair<const char*, const char*>, 13> known = {{{"sin", "sin"},
+                                                                                   {"cos", "cos"},
+                                                                                   {"tan", "tan"},
+                                                                                   {"sinh", "sinh"},
+                                                                                   {"cosh", "cosh"},
+                                                                                   {"tanh", "tanh"},
+                                                                                   {"exp", "exp"},
+                                                                                   {"log", "ln"},
+                                                                                   {"asin", "arcsin"},
+                                                                                   {"acos", "arccos"},
+                                                                                   {"atan", "arctan"},
+                                                                                   {"max", "max"},
+                                                                                   {"min", "min"}}};
+    for (const auto& [own, tex] : known)
+        if (name == own) return std::string("\\") + tex;
+    return "\\operatorname{" + name + "}";
+}
+
+/// A name in TeX, under so many dots.
+std::string texName(const SplitName& parts, int dots) {
+    const bool isLetter = parts.word.size() == 1;
+    std::string text = parts.base != parts.word ? "\\" + parts.word
+                       : isLetter               ? parts.word
+                                                : "\\mathrm{" + parts.word + "}";
+    if (dots > 0) text = (dots == 1 ? "\\dot{" : "\\ddot{") + text + "}";
+    if (!parts.index.empty()) text += "_{" + parts.index + "}";
+    return text;
+}
+
 /// p / q with a small q, if the number is one.
 bool isFraction(double x, double& p, double& q) {
     for (q = 1; q <= 64; ++q) {
@@ -72,7 +104,7 @@ bool isFraction(double x, double& p, double& q) {
 class Printer {
 public:
     Printer(const Graph& graph, const Formula& formula, TextForm form)
-        : graph_(graph), formula_(formula), isRich_(form == TextForm::rich) {}
+        : graph_(graph), formula_(formula), isRich_(form == TextForm::rich), isTex_(form == TextForm::tex) {}
 
     std::string sum(int node) {
         const Graph::Node& here = graph_.at(node);
@@ -103,18 +135,25 @@ private:
         return has(d, 2 * d) ? 'b' : 'c';
     }
     std::string sign(bool isNegative, bool isFirst) const {
-        if (isFirst) return isNegative ? "−" : "";
-        return isNegative ? " − " : " + ";
+        const std::string minus = isTex_ ? "-" : "−";
+        if (isFirst) return isNegative ? minus : "";
+        return isNegative ? " " + minus + " " : " + ";
     }
     std::string signedNumber(double x, bool isFirst) const {
         return sign(x < 0, isFirst) + numberText(std::fabs(x));
     }
     std::string numberText(double x) const {
-        if (x == std::numbers::pi) return "π";
+        if (x == std::numbers::pi) return isTex_ ? "\\pi" : "π";
         double p = 0, q = 1;
         if (isFraction(x, p, q) && q > 1 && std::fabs(x) * 1000 != std::round(std::fabs(x) * 1000))
-            return formatCount(p) + "/" + formatCount(q);
-        return formatNumber(x, 8);
+            return isTex_ ? fraction(formatCount(p), formatCount(q)) : formatCount(p) + "/" + formatCount(q);
+        std::string text = formatNumber(x, 8);
+        if (const auto e = text.find('e'); isTex_ && e != std::string::npos)
+            text = text.substr(0, e) + " \\cdot 10^{" + text.substr(e + 1) + "}";
+        return text;
+    }
+    static std::string fraction(const std::string& above, const std::string& below) {
+        return "\\frac{" + above + "}{" + below + "}";
     }
     std::string symbol(int s) const {
         const int d = formula_.dimension();
@@ -129,6 +168,7 @@ private:
     std::string italic(const std::string& text) const { return isRich_ ? "<i>" + text + "</i>" : text; }
     std::string named(const std::string& name, int primes) const {
         const SplitName parts = splitName(name);
+        if (isTex_) return texName(parts, primes);
         std::string text = italic(parts.base);
         if (!parts.index.empty())
             text += isRich_ ? "<sub>" + parts.index + "</sub>" : plainIndex(parts.index);
@@ -140,10 +180,14 @@ private:
         return n.kind == Graph::Kind::symbol || (n.kind == Graph::Kind::number && n.number >= 0) ||
                (n.kind == Graph::Kind::call && n.function == Function::abs);
     }
-    std::string bracketed(int node) { return "(" + sum(node) + ")"; }
+    std::string inBrackets(const std::string& text) const {
+        return isTex_ ? "\\left(" + text + "\\right)" : "(" + text + ")";
+    }
+    std::string bracketed(int node) { return inBrackets(sum(node)); }
     std::string atom(int node) { return isAtom(node) ? factorText(node, 1) : bracketed(node); }
     std::string raised(const std::string& base, const std::string& exponent) const {
         if (isRich_) return base + "<sup>" + exponent + "</sup>";
+        if (isTex_) return base + "^{" + exponent + "}";
         if (exponent == "2") return base + "²";
         if (exponent == "3") return base + "³";
         if (exponent == "4") return base + "⁴";
@@ -156,14 +200,14 @@ private:
     std::string relation(const Graph::Node& n) {
         const auto sign = [&]() -> std::string {
             if (n.function == Function::equal) return " = ";
-            if (n.function == Function::notEqual) return " ≠ ";
-            if (n.function == Function::lessOrEqual) return " ≤ ";
+            if (n.function == Function::notEqual) return isTex_ ? " \\ne " : " ≠ ";
+            if (n.function == Function::lessOrEqual) return isTex_ ? " \\le " : " ≤ ";
             return isRich_ ? " &lt; " : " < ";
         };
         return sum(n.operands[0].node) + sign() + sum(n.operands[1].node);
     }
     std::string comparison(const Graph::Node& n, const std::string& exponent) {
-        const std::string text = "(" + relation(n) + ")";
+        const std::string text = inBrackets(relation(n));
         return exponent.empty() ? text : raised(text, exponent);
     }
     /// An argument, where a comparison needs no brackets.
@@ -180,11 +224,12 @@ private:
     }
     std::string callText(const Graph::Node& n, const std::string& exponent) {
         const std::string first = sum(n.operands[0].node);
-        if (n.function == Function::abs) return "|" + first + "|";
+        if (n.function == Function::abs) return isTex_ ? "\\left|" + first + "\\right|" : "|" + first + "|";
         if (n.function == Function::power) return raised(atom(n.operands[0].node), sum(n.operands[1].node));
         if (isComparison(n.function)) return comparison(n, exponent);
         std::string function(name(n.function));
         if (n.table) function = lookUpName(n);
+        if (isTex_) function = texFunction(function);
         if (!exponent.empty()) function = raised(function, exponent);
         if (n.operands.size() > 1) {
             std::string arguments = first;
@@ -192,15 +237,15 @@ private:
                 arguments += ", " + whole(n.operands[k].node, n.function == Function::choose);
             if (n.function == Function::choose)
                 arguments.replace(0, first.size(), whole(n.operands[0].node, true));
-            return function + "(" + arguments + ")";
+            return function + inBrackets(arguments);
         }
         return graph_.at(n.operands[0].node).kind == Graph::Kind::symbol ? function + " " + first
-                                                                         : function + "(" + first + ")";
+                                                                         : function + inBrackets(first);
     }
     /// node ^ exponent, exponent > 0.
     std::string factorText(int node, double exponent) {
         const Graph::Node& n = graph_.at(node);
-        if (exponent == 0.5) return "√" + atom(node);
+        if (exponent == 0.5) return isTex_ ? "\\sqrt{" + sum(node) + "}" : "√" + atom(node);
         if (n.kind == Graph::Kind::call && n.function != Function::abs && n.function != Function::power)
             return callText(n, exponent == 1 ? "" : numberText(exponent));
         if (exponent != 1) return raised(atom(node), numberText(exponent));
@@ -248,6 +293,7 @@ private:
         for (const auto& [key, o] : sorted)
             (o.factor > 0 ? above : below).push_back(factorText(o.node, std::fabs(o.factor)));
         if (above.empty()) above.emplace_back("1");
+        if (isTex_ && !below.empty()) return start + fraction(joined(above), joined(below));
         std::string text = start + joined(above);
         if (!below.empty()) text += " / " + (below.size() == 1 ? below[0] : "(" + joined(below) + ")");
         return text;
@@ -260,7 +306,7 @@ private:
 
     const Graph& graph_;
     const Formula& formula_;
-    bool isRich_;
+    bool isRich_, isTex_;
 };
 
 }  // namespace

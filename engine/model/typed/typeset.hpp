@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Formulas for people: Greek letters, subscripts, powers, primes for time derivatives.
 ///
-/// Two forms: rich text (a subset of HTML: sup, sub, i) for the window, plain Unicode for the command line.
+/// Three forms: rich text (a subset of HTML: sup, sub, i) for the window, plain Unicode for the command line,
+/// and TeX, with dots for time derivatives, for documents.
 #pragma once
 
 #include <string>
@@ -15,7 +16,7 @@ namespace extremal::typed {
 /// "theta1" -> "θ₁", "omega_0" -> "ω₀", "x" -> "x": plain Unicode, for axes and legends.
 std::string symbolOf(const std::string& name);
 
-enum class TextForm { plain, rich };
+enum class TextForm { plain, rich, tex };
 
 /// A node of the graph as a formula.
 std::string typeset(const Graph& graph, int node, const Formula& formula, TextForm form);
