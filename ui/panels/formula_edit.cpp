@@ -3,11 +3,14 @@
 
 #include <QEvent>
 #include <QFontDatabase>
+#include <QKeyEvent>
+#include <QMimeData>
 #include <QTextBlock>
 #include <QTextLayout>
 #include <algorithm>
 
 #include "ui/base/theme.hpp"
+#include "ui/text/tex_formula.hpp"
 
 namespace extremal {
 
@@ -32,6 +35,25 @@ void FormulaEdit::changeEvent(QEvent* event) {
     if (event->type() == QEvent::FontChange) fit();
 }
 
+void FormulaEdit::setLeastLines(int lines) {
+    leastLines_ = lines;
+    fit();
+}
+
+void FormulaEdit::keyPressEvent(QKeyEvent* event) {
+    const bool isReturn = event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter;
+    if (isReturn && leastLines_ == 1) {
+        event->accept();
+        return emit returnPressed();
+    }
+    QPlainTextEdit::keyPressEvent(event);
+}
+
+void FormulaEdit::insertFromMimeData(const QMimeData* source) {
+    if (source->hasText() && isTex(source->text())) return insertPlainText(formulaFromTex(source->text()));
+    QPlainTextEdit::insertFromMimeData(source);
+}
+
 void FormulaEdit::fit() {
     int lines = 0;
     for (QTextBlock block = document()->begin(); block.isValid(); block = block.next()) {
@@ -39,7 +61,7 @@ void FormulaEdit::fit() {
         lines += std::max(1, block.layout() ? block.layout()->lineCount() : 1);
     }
     const int margins = 2 * (static_cast<int>(document()->documentMargin()) + frameWidth()) + 6;
-    setFixedHeight(std::clamp(lines, 2, 12) * fontMetrics().lineSpacing() + margins);
+    setFixedHeight(std::clamp(lines, leastLines_, 12) * fontMetrics().lineSpacing() + margins);
 }
 
 void FormulaEdit::mark(std::optional<int> position) {

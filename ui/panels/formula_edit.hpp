@@ -17,13 +17,22 @@ public:
     void mark(std::optional<int> position);
     /// The whole of it was refused, wherever the place is.
     void setWrong(bool isWrong);
+    /// How high it is when empty; two lines at first. With one line Return does not begin a new one.
+    void setLeastLines(int lines);
+
+signals:
+    void returnPressed();  ///< of a field with one line
 
 protected:
+    void keyPressEvent(QKeyEvent* event) override;
+    /// TeX is pasted as a formula.
+    void insertFromMimeData(const QMimeData* source) override;
     void resizeEvent(QResizeEvent* event) override;
     void changeEvent(QEvent* event) override;
 
 private:
     void fit();
+    int leastLines_ = 2;
 };
 
 }  // namespace extremal

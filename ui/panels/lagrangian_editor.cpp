@@ -2,19 +2,23 @@
 #include "ui/panels/lagrangian_editor.hpp"
 
 #include <QApplication>
+#include <QClipboard>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPointer>
 #include <QToolButton>
+#include <QUrl>
 #include <QVBoxLayout>
 
-#include "engine/core/text/expression.hpp"
+#include "engine/model/typed/part_equations.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/theme.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/parameter_table.hpp"
+#include "ui/panels/part_kinds.hpp"
+#include "ui/panels/part_lines.hpp"
 #include "ui/panels/problem_text.hpp"
 #include "ui/workspace/lagrangian_edits.hpp"
 #include "ui/workspace/workspace.hpp"
@@ -50,6 +54,7 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(5);
     makeFormula(*column);
+    makeEquations(*column);
     makeCoordinates(*column);
     parameters_ = new ParameterTable(
         workspace, [this](const EditsOfScene& edits, const QString& what, const FollowingText& follow) {
@@ -71,6 +76,8 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
     connect(&workspace_, &Workspace::opened, this, [this] {
         isPending_ = false;
         debounce_.stop();
+        parts_->forget();
+        names_.forget(workspace_.document());
     });
 }
 
@@ -91,14 +98,51 @@ void LagrangianEditor::makeFormula(QVBoxLayout& column) {
     problem_->setProperty("problem", true);
     problem_->hide();
     column.addWidget(problem_);
+    note_ = makeLinkLabel("caption");
+    note_->setObjectName("note.names");
+    note_->setAccessibleName(tr("New names"));
+    note_->hide();
+    column.addWidget(note_);
+    for (QLabel* label : {problem_, note_})
+        connect(label, &QLabel::linkActivated, this, &LagrangianEditor::follow);
+    parts_ = new PartLines(workspace_, names_);
+    column.addWidget(parts_);
+    connect(parts_, &PartLines::taken, this, &LagrangianEditor::showProblem);
+    setTabOrder(text_, parts_->addButton());  // the link of the note comes later
+}
+
+/// What the links of the notes do.
+void LagrangianEditor::follow(const QString& link) {
+    const QUrl url(link);
+    if (url.scheme() == QLatin1String("undo")) {
+        names_.clearNote();
+        workspace_.undo();
+    } else if (url.scheme() == QLatin1String("name")) {
+        names_.mean(url.path().toStdString());
+        isPending_ = true;
+        check();
+    }
+}
+
+/// The equations of motion, with reactions and forces.
+void LagrangianEditor::makeEquations(QVBoxLayout& column) {
     equations_ = makeLabel({}, "body");
     equations_->setObjectName("equations");
     equations_->setAccessibleName(tr("Equations of motion"));
-    equations_->setToolTip(tr("The Euler-Lagrange equations"));
+    equations_->setToolTip(
+        tr("The Euler-Lagrange equations; λ is the multiplier of a constraint, the force that keeps it"));
     equations_->setWordWrap(true);
     equations_->setTextFormat(Qt::RichText);
     equations_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     column.addWidget(equations_);
+    copy_ = new QToolButton;
+    copy_->setObjectName("copyTex");
+    copy_->setText(tr("Copy as LaTeX"));
+    copy_->setToolTip(tr("The equations of motion for a document"));
+    copy_->hide();
+    connect(copy_, &QToolButton::clicked, this,
+            [this] { QApplication::clipboard()->setText(QString::fromStdString(tex_)); });
+    column.addWidget(copy_, 0, Qt::AlignLeft);
 }
 
 void LagrangianEditor::makeCoordinates(QVBoxLayout& column) {
@@ -125,20 +169,17 @@ void LagrangianEditor::makeCoordinates(QVBoxLayout& column) {
     });
 }
 
-/// The formula as typed, with the names of the scene or of what was last tried.
-typed::Formula LagrangianEditor::formulaNow() const {
-    Value model = *valueAt(workspace_.document(), "/model");
-    for (const char* key : {"coordinates", "parameters"})
-        if (const Value* draft = workspace_.draftAt(std::string("/model/") + key)) model.set(key, *draft);
-    model.set("lagrangian", text_->toPlainText().toStdString());
-    return formulaIn(model);
-}
-
-/// Whether the model has constraints or forces beside its Lagrangian.
-bool LagrangianEditor::hasDrive(const Value& document) {
-    for (const char* key : {"constraints", "forces", "dissipation"})
-        if (valueAt(document, std::string("/model/") + key)) return true;
-    return false;
+/// The model as typed: with the names that the formula makes, and with names that were tried and refused.
+Value LagrangianEditor::modelNow() const {
+    std::vector<Edit> tried;
+    for (const auto& [pointer, value] : workspace_.drafts())
+        if (pointer.starts_with("/model/coordinates") || pointer.starts_with("/model/parameters"))
+            tried.push_back({pointer, value});
+    Value document = withEdits(workspace_.document(), tried);
+    const Value typed = lagrangianFrom(formulaOfText(text_->toPlainText().toStdString()));
+    document = isPending_ ? withEdits(document, names_.outcomeOf(document, formulaPlace, typed, false).edits)
+                          : withEdits(document, {{formulaPlace, typed}});
+    return *valueAt(document, "/model");
 }
 
 /// Differentiates in a background thread; the engine remembers the result, so that using it is fast.
@@ -146,45 +187,61 @@ void LagrangianEditor::check() {
     if (!isVisibleTo(parentWidget()) || workspace_.scene().model.type != "lagrangian") return;
     stop_.request_stop();
     stop_ = std::stop_source();
-    runInBackground([self = QPointer(this), formula = formulaNow(), text = text_->toPlainText().toStdString(),
-                     stop = stop_.get_token()] {
-        const typed::Examination found = typed::examine(formula, stop);
-        if (!found.isComplete) return;
-        sendToWindow([self, text, found] {
-            if (self) self->take(text, found);
+    Value model = modelNow();
+    // As it is typed, so that places in it are those of the text.
+    model.set("lagrangian", formulaOfText(text_->toPlainText().toStdString()));
+    runInBackground([self = QPointer(this), formula = formulaIn(model), parts = partTextsOf(model),
+                     text = text_->toPlainText().toStdString(), stop = stop_.get_token()] {
+        Found found{text, typed::examine(formula, stop), {}, {}};
+        if (!found.examination.isComplete) return;
+        if (!found.examination.equations.empty()) {
+            found.lines = typed::equationLines(formula, parts, typed::TextForm::rich);
+            found.tex = typed::texOfEquations(formula, parts);
+        }
+        sendToWindow([self, found = std::move(found)] {
+            if (self) self->take(found);
         });
     });
 }
 
-void LagrangianEditor::take(const std::string& text, const typed::Examination& found) {
-    if (text != text_->toPlainText().toStdString()) return;  // typed on since
-    place_ = found.position;
-    if (!found.equations.empty()) {
+void LagrangianEditor::showEquations(const Found& found) {
+    if (!found.lines.empty()) {
         QString lines;
-        for (const std::string& line : found.equations)
+        for (const std::string& line : found.lines)
             lines += "<p style='margin:2px 0'>" + QString::fromStdString(line) + "</p>";
-        // With constraints and forces the left-hand sides are these.
-        if (hasDrive(workspace_.document())) {
-            lines.replace(" = 0</p>", " = <i>Q</i></p>");
-            lines += "<p style='margin:2px 0'>" + tr("Q: forces, and reactions of constraints") + "</p>";
-        }
         equations_->setText(lines);
+        tex_ = found.tex;
     }
-    equations_->setVisible(!found.equations.empty());
-    if (isPending_) {
-        isPending_ = false;
-        const Value* now = valueAt(workspace_.document(), formulaPlace);
-        const Value typed = lagrangianFrom(text);
-        if (now && *now == typed)
-            workspace_.dropDraft(formulaPlace);
-        else
-            workspace_.edit({{formulaPlace, typed}}, tr("Change the Lagrangian"), formulaPlace);
-    }
+    equations_->setVisible(!found.lines.empty());
+    copy_->setVisible(!found.lines.empty());
+}
+
+void LagrangianEditor::take(const Found& found) {
+    if (found.text != text_->toPlainText().toStdString()) return;  // typed on since
+    place_ = found.examination.position;
+    showEquations(found);
+    if (isPending_) edit(found.text);
     showProblem();
 }
 
+/// Makes what was typed part of the scene, or keeps it as refused.
+void LagrangianEditor::edit(const std::string& text) {
+    isPending_ = false;
+    const Value* now = valueAt(workspace_.document(), formulaPlace);
+    const Value typed = lagrangianFrom(formulaOfText(text));
+    if (now && *now == typed)
+        names_.drop(workspace_, formulaPlace);
+    else
+        names_.edit(workspace_, formulaPlace, typed, tr("Change the Lagrangian"));
+}
+
 void LagrangianEditor::showProblem() {
-    const std::string text = text_->toPlainText().toStdString();
+    const std::string typed = text_->toPlainText().toStdString(), text = formulaOfText(typed);
+    note_->setText(names_.note().isEmpty()
+                       ? QString()
+                       : names_.note().toHtmlEscaped() +
+                             QStringLiteral(". <a href=\"undo:\">%1</a>").arg(tr("Undo")));
+    note_->setVisible(!names_.note().isEmpty());
     // Of the formula, else of the names of the coordinates: there, or what they make wrong elsewhere.
     std::vector<Problem> problems = workspace_.refusalAt(formulaPlace);
     const std::vector<Problem> ofNames = workspace_.refusalAt(coordinatesPlace);
@@ -200,7 +257,7 @@ void LagrangianEditor::showProblem() {
     const bool isWrong = !problems.empty();
     const bool isPlaced = isWrong && place_ && problems.front().pointer.starts_with(formulaPlace);
     problem_->setVisible(isWrong);
-    text_->mark(isPlaced ? std::optional(characterAt(text, *place_)) : std::nullopt);
+    text_->mark(isPlaced && text == typed ? std::optional(characterAt(text, *place_)) : std::nullopt);
     text_->setWrong(isFormulaWrong || isPlaced);
     if (!isWrong) return;
     const Problem& first = problems.front();
@@ -212,15 +269,12 @@ void LagrangianEditor::showProblem() {
     QString shown =
         (where + QString::fromStdString(first.message.substr(0, first.message.find('\n')))).toHtmlEscaped();
     if (!first.hint.empty()) shown += " (" + QString::fromStdString(first.hint).toHtmlEscaped() + ")";
-    if (isPlaced) {
-        const QFontMetrics metrics(text_->font());
-        const int columns = std::max(16, problem_->width() / metrics.horizontalAdvance('x'));
-        const auto lines =
-            caretLines(text, std::min(*place_, text.size()), static_cast<std::size_t>(columns / 2 - 4), "");
-        shown = "<pre style='font-family:\"" + text_->font().family() +
-                "\";font-size:" + QString::number(QFontInfo(text_->font()).pixelSize()) + "px;margin:0'>" +
-                QString::fromStdString(lines).toHtmlEscaped() + "</pre>" + shown;
-    }
+    if (isPlaced) shown = caretHtml(*text_, text, *place_, problem_->width()) + shown;
+    for (const std::string& name : names_.slips())
+        if (isFormula && first.message.find('"' + name) != std::string::npos)
+            shown += " " + QStringLiteral("<a href=\"name:%1\">%2</a>")
+                               .arg(QString::fromStdString(name),
+                                    tr("%1 is meant").arg(QString::fromStdString(name)));
     problem_->setText(shown + QStringLiteral(" ") + handbookLink("lagrangian#what-is-refused"));
 }
 
@@ -241,15 +295,10 @@ void LagrangianEditor::changeCoordinates() {
 
 /// Takes what was typed a moment ago before its time: into the scene, or as refused.
 void LagrangianEditor::takeNow() {
+    parts_->takeNow();
     if (!isPending_) return;
-    isPending_ = false;
     debounce_.stop();
-    const Value* const now = valueAt(workspace_.document(), formulaPlace);
-    const Value typed = lagrangianFrom(text_->toPlainText().toStdString());
-    if (now && *now == typed)
-        workspace_.dropDraft(formulaPlace);
-    else
-        workspace_.edit({{formulaPlace, typed}}, tr("Change the Lagrangian"), formulaPlace);
+    edit(text_->toPlainText().toStdString());
 }
 
 /// Makes edits that change the formula of the scene as well. What is typed and not valid yet is never
@@ -270,7 +319,7 @@ bool LagrangianEditor::change(const EditsOfScene& edits, const QString& what, co
         text_->setTextCursor(cursor);
     }
     isPending_ = false;
-    workspace_.edit({{formulaPlace, lagrangianFrom(followed)}}, what, step);
+    workspace_.edit({{formulaPlace, lagrangianFrom(formulaOfText(followed))}}, what, step);
     return isMade;
 }
 
@@ -280,7 +329,7 @@ void LagrangianEditor::refresh() {
     const Value* text = draft ? draft : valueAt(workspace_.document(), formulaPlace);
     if (text && !isPending_) {
         const QString shown = QString::fromStdString(lagrangianText(*text));
-        const bool isSame = lagrangianFrom(text_->toPlainText().toStdString()) == *text;
+        const bool isSame = lagrangianFrom(formulaOfText(text_->toPlainText().toStdString())) == *text;
         if (!isSame && shown != text_->toPlainText()) {
             const QSignalBlocker block(text_);
             text_->setPlainText(shown);
@@ -291,6 +340,7 @@ void LagrangianEditor::refresh() {
     if (!names) names = valueAt(workspace_.document(), coordinatesPlace);
     if (!coordinates_->hasFocus() || !coordinates_->isModified()) coordinates_->setText(joined(names));
     parameters_->refresh();
+    parts_->refresh();
     showProblem();
     debounce_.start();
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The editor of a typed Lagrangian: the formula, checked while it is typed, its equations of motion, the
-/// coordinates and the parameters.
+/// The editor of a typed Lagrangian: the formula, checked while it is typed, the lines of constraints, forces
+/// and damping under it, the equations of motion, the coordinates and the parameters.
 ///
+/// Names that are typed and unknown become coordinates and parameters (ui/workspace/typed_names.hpp).
 /// A valid formula becomes part of the scene automatically; one that is not stays in the editor, with the
 /// place underlined and a caret below it, while the scene keeps the last sound one. Differentiation runs
 /// beside the window.
@@ -15,6 +16,7 @@
 
 #include "engine/model/typed/typed_model.hpp"
 #include "ui/panels/parameter_table.hpp"
+#include "ui/workspace/typed_names.hpp"
 
 class QLabel;
 class QLineEdit;
@@ -24,6 +26,7 @@ class QVBoxLayout;
 namespace extremal {
 
 class FormulaEdit;
+class PartLines;
 class Workspace;
 
 class LagrangianEditor : public QWidget {
@@ -37,19 +40,33 @@ public:
 
 private:
     void makeFormula(QVBoxLayout& column);
+    void makeEquations(QVBoxLayout& column);
+    void follow(const QString& link);
     void makeCoordinates(QVBoxLayout& column);
     void check();
-    void take(const std::string& text, const typed::Examination& found);
+    /// What was found for a text: where it is wrong, else its equations.
+    struct Found {
+        std::string text;
+        typed::Examination examination;
+        std::vector<std::string> lines;
+        std::string tex;
+    };
+    void take(const Found& found);
+    void edit(const std::string& text);
+    void showEquations(const Found& found);
     void showProblem();
     void changeCoordinates();
     void takeNow();
     bool change(const EditsOfScene& edits, const QString& what, const FollowingText& follow);
-    typed::Formula formulaNow() const;
-    static bool hasDrive(const Value& document);
+    Value modelNow() const;
 
     Workspace& workspace_;
+    TypedNames names_;
     FormulaEdit* text_;
-    QLabel *problem_, *equations_;
+    QLabel *problem_, *equations_, *note_;
+    QToolButton* copy_;
+    std::string tex_;  ///< of the equations shown
+    PartLines* parts_;
     QLineEdit* coordinates_;
     ParameterTable* parameters_;
     QTimer debounce_;

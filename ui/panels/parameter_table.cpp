@@ -178,8 +178,7 @@ void ParameterTable::addParameter() {
 
 void ParameterTable::refresh() {
     const Value* parameters = valueAt(workspace_.document(), "/model/parameters");
-    const Value* lagrangian = valueAt(workspace_.document(), "/model/lagrangian");
-    if (!parameters || !parameters->isObject() || !lagrangian || !lagrangian->isString()) return;
+    if (!parameters || !parameters->isObject()) return;
     const Value::Object& shown = parameters->asObject();
     const bool isSame =
         std::equal(rows_.begin(), rows_.end(), shown.begin(), shown.end(),
@@ -211,9 +210,9 @@ void ParameterTable::refresh() {
         }
         row.slider->setToolTip(isNumber ? tr("%1 to %2").arg(row.range.low).arg(row.range.high)
                                         : tr("follows the expression"));
-        const bool isUsed = withNameReplaced(lagrangian->asString(), row.name, "") != lagrangian->asString();
+        const bool isUsed = isInFormulas(workspace_.document(), row.name);
         row.remove->setEnabled(!isUsed);
-        row.remove->setToolTip(isUsed ? tr("The formula uses %1").arg(QString::fromStdString(row.name))
+        row.remove->setToolTip(isUsed ? tr("A formula uses %1").arg(QString::fromStdString(row.name))
                                       : tr("Removes %1").arg(QString::fromStdString(row.name)));
     }
 }

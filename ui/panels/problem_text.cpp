@@ -7,6 +7,9 @@
 #include <QUrl>
 #include <QVariant>
 
+#include <algorithm>
+
+#include "engine/core/text/expression.hpp"
 #include "engine/scene/outlook/topics.hpp"
 #include "ui/base/card.hpp"
 #include "ui/workspace/workspace.hpp"
@@ -55,6 +58,16 @@ QLabel* makeLinkLabel(const char* role, QWidget* parent) {
         if (url.scheme() == QLatin1String("handbook")) QDesktopServices::openUrl(url);
     });
     return label;
+}
+
+QString caretHtml(const QWidget& field, const std::string& text, std::size_t position, int width) {
+    const QFontMetrics metrics(field.font());
+    const int columns = std::max(16, width / metrics.horizontalAdvance('x'));
+    const auto lines =
+        caretLines(text, std::min(position, text.size()), static_cast<std::size_t>(columns / 2 - 4), "");
+    return "<pre style='font-family:\"" + field.font().family() +
+           "\";font-size:" + QString::number(QFontInfo(field.font()).pixelSize()) + "px;margin:0'>" +
+           QString::fromStdString(lines).toHtmlEscaped() + "</pre>";
 }
 
 void setHelp(QWidget& widget, const std::string& place) {

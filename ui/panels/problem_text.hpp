@@ -31,6 +31,10 @@ bool isSentAway(const QWidget& widget);
 /// A label that wraps and whose links open, by a click, and by Tab and Return.
 QLabel* makeLinkLabel(const char* role, QWidget* parent = nullptr);
 
+/// A formula with a caret below its byte `position`, in the letters of the field it was typed in and no wider
+/// than so many pixels.
+QString caretHtml(const QWidget& field, const std::string& text, std::size_t position, int width);
+
 /// F1 on the widget, or on what is inside, opens this place; empty: it is as it was.
 void setHelp(QWidget& widget, const std::string& place);
 

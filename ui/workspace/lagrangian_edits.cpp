@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/core/text/expression.hpp"
+#include "ui/text/tex_formula.hpp"
 
 namespace extremal {
 
@@ -95,7 +96,39 @@ Value initialFor(const Value& document, const std::vector<std::string>& old,
     return result;
 }
 
+void addTexts(const Value& value, const std::string& pointer, std::vector<PlacedFormula>& all) {
+    if (value.isString()) all.push_back({pointer, value.asString()});
+    if (value.isArray())
+        for (std::size_t i = 0; i < value.asArray().size(); ++i)
+            addTexts(value.asArray()[i], pointer + "/" + std::to_string(i), all);
+    if (value.isObject())
+        for (const auto& [key, member] : value.asObject()) addTexts(member, pointer + "/" + key, all);
+}
+
 }  // namespace
+
+std::string formulaOfText(const std::string& text) {
+    const QString typed = QString::fromStdString(text);
+    if (!isTex(typed)) return text;
+    return formulaFromTex(typed).toStdString();
+}
+
+std::vector<PlacedFormula> partFormulas(const Value& document) {
+    std::vector<PlacedFormula> all;
+    const Value* model = valueAt(document, "/model");
+    if (!model || !model->isObject()) return all;
+    for (const auto& [key, value] : model->asObject())
+        if (key != "type" && key != "coordinates" && key != "parameters" && key != "lagrangian")
+            addTexts(value, "/model/" + key, all);
+    return all;
+}
+
+bool isInFormulas(const Value& document, const std::string& name) {
+    const auto has = [&](const std::string& text) { return withNameReplaced(text, name, "") != text; };
+    const std::vector<PlacedFormula> parts = partFormulas(document);
+    return has(lagrangianOf(document)) ||
+           std::any_of(parts.begin(), parts.end(), [&](const PlacedFormula& p) { return has(p.text); });
+}
 
 typed::Formula formulaIn(const Value& model) {
     Value document(Value::Object{{"model", model}});
@@ -160,6 +193,8 @@ std::vector<Edit> editsForParameterName(const Value& document, const std::string
     edits.push_back({"/model/parameters", Value(std::move(parameters))});
     for (const char* place : {"/model/lagrangian", "/initial", "/time", "/output"})
         if (const Value* value = valueAt(document, place)) renameBelow(*value, place, from, to, edits);
+    for (const PlacedFormula& part : partFormulas(document))
+        renameBelow(part.text, part.pointer, from, to, edits);
     if (const Value* schemes = valueAt(document, "/schemes"))
         for (std::size_t i = 0; i < schemes->asArray().size(); ++i) {
             const std::string step = "/schemes/" + std::to_string(i) + "/step";
@@ -205,6 +240,27 @@ std::string formulaFor(const Value& document, const std::vector<std::string>& na
     return withNameReplaced(withNameReplaced(text, from, to), from + "_t", to + "_t");
 }
 
+namespace {
+
+/// The formulas beside the Lagrangian by the new name of a coordinate, and the force on it.
+void addRenamedParts(const Value& document, const std::vector<std::string>& names, std::vector<Edit>& edits) {
+    const std::vector<std::string> old = coordinatesOf(document);
+    const auto changed = renamedCoordinate(old, names);
+    if (!changed) return;
+    for (const PlacedFormula& part : partFormulas(document))
+        if (const std::string text = formulaFor(document, names, part.text); text != part.text)
+            edits.push_back({part.pointer, text});
+    const Value* const forces = valueAt(document, "/model/forces");
+    if (!forces || !forces->isObject() || !forces->find(old[*changed])) return;
+    Value::Object renamed;
+    for (const auto& [name, text] : forces->asObject())
+        renamed.emplace_back(name == old[*changed] ? names[*changed] : name,
+                             text.isString() ? Value(formulaFor(document, names, text.asString())) : text);
+    edits.push_back({"/model/forces", Value(std::move(renamed))});
+}
+
+}  // namespace
+
 std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<std::string>& names) {
     const std::vector<std::string> old = coordinatesOf(document);
     std::vector<std::string> source = names;  // under which name the initial data of each are found
@@ -213,6 +269,7 @@ std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<s
         source = old;
         edits.push_back(
             {"/model/lagrangian", lagrangianFrom(formulaFor(document, names, lagrangianOf(document)))});
+        addRenamedParts(document, names, edits);
     }
     edits.push_back({"/initial", initialFor(document, old, source)});
     // Plots and columns named after coordinates that are gone would be errors: the defaults follow the new

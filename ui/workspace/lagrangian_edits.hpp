@@ -15,6 +15,18 @@ namespace extremal {
 std::string lagrangianText(const Value& lagrangian);
 Value lagrangianFrom(const std::string& text);
 
+/// The Lagrangian as formulaIn() takes it, from text that may be TeX.
+std::string formulaOfText(const std::string& text);
+
+/// A formula of a typed model beside its Lagrangian: a constraint, a force, a part of a wall.
+struct PlacedFormula {
+    std::string pointer, text;
+};
+/// All of them, in the order of the document: every text below /model that is neither a name nor a parameter.
+std::vector<PlacedFormula> partFormulas(const Value& document);
+/// Whether the Lagrangian or one of these has the name in it.
+bool isInFormulas(const Value& document, const std::string& name);
+
 /// The typed Lagrangian of a document, with numbers for its parameters as far as they are known.
 typed::Formula formulaIn(const Value& model);
 
