@@ -240,7 +240,9 @@ StagePlayer::Extent StagePlayer::findBounds(const Track& track) const {
         rowState(track, row, x);
         drawing.clear();
         (track.system ? *track.system : system_).draw(x.data(), drawing);
-        for (const Shape& shape : drawing.shapes) addExtent(shape, points);
+        // What stands still counts once: many equal points would make all that moves seem far away.
+        for (const Shape& shape : drawing.shapes)
+            if (row == 0 || !isScenery(shape)) addExtent(shape, points);
         points.push_back(drawing.tracer);
     }
     std::erase_if(points, [](const Point& p) { return !isFinite(p); });
