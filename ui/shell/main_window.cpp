@@ -12,6 +12,7 @@
 #include <QScrollArea>
 #include <QSettings>
 #include <QSplitter>
+#include <QStyle>
 #include <QTimer>
 
 #include <algorithm>
@@ -98,8 +99,22 @@ void MainWindow::connectState() {
                 if (std::isfinite(s->summary.tEnd)) computed = std::max(computed, s->summary.tEnd);
         playback_->setComputedEnd(computed);
         showStatus();
+        playWhenOpened();
     });
+    connect(workspace_, &Workspace::opened, this, [this] { isToPlay_ = playsWhenOpened_; });
 }
+
+/// The stage moves as soon as there is something to move; not where the desktop asks for little motion.
+void MainWindow::playWhenOpened() {
+    if (!isToPlay_ || run_->isStale() || !(playback_->computedEnd() > playback_->start())) return;
+    isToPlay_ = false;
+    const bool isCalm = style()->styleHint(QStyle::SH_Widget_Animation_Duration, nullptr, this) == 0;
+    if (isCalm || !compare_->hasStage() || !isSceneInSight() || playback_->isPlaying()) return;
+    playback_->setTime(playback_->start());
+    playback_->setPlaying(true);
+}
+
+void MainWindow::setPlaysWhenOpened(bool plays) { playsWhenOpened_ = plays; }
 
 void MainWindow::offerUnsaved() { startPage_->offer(autosave_->unsaved()); }
 

@@ -63,6 +63,8 @@ public:
 
     /// A path or "preset:NAME". Asks first what becomes of changes that are not saved.
     bool open(const QString& scene, bool isTrusted = false);
+    /// Whether scenes play as soon as they have results; at first as stored, without a store they do not.
+    void setPlaysWhenOpened(bool plays);
     /// The colours change some turns of the event loop later.
     void setTheme(const Theme& theme);
     /// Everything into a folder: files as `extremal run`, the figures, and the command that makes them again.
@@ -114,6 +116,7 @@ private:
     void addStudyActions();
     void addLessonActions();
     void startLesson();
+    void playWhenOpened();
     void startFromCursor();
     void shareWidth();
     bool isSceneInSight() const;
@@ -186,9 +189,10 @@ private:
     QSplitter* splitter_;
     QScrollArea* left_;  ///< the panel of the scene
     TextView* notes_;
-    QString shownNotes_;             ///< their source
-    QPointer<QWidget> focusBefore_;  ///< what the start page has taken the focus from
-    bool wasPlaying_ = false;        ///< when the start page hid the scene
+    QString shownNotes_;                               ///< their source
+    QPointer<QWidget> focusBefore_;                    ///< what the start page has taken the focus from
+    bool wasPlaying_ = false;                          ///< when the start page hid the scene
+    bool playsWhenOpened_ = false, isToPlay_ = false;  ///< an opened scene, as soon as it has results
     QLabel* status_;
 };
 

@@ -95,6 +95,7 @@ void MainWindow::startLesson() {
         return;
     }
     tabs_->setCurrentIndex(0);
+    isToPlay_ = false;  // the lesson says when
     lesson_->start();
 }
 
@@ -346,6 +347,16 @@ void MainWindow::addRunActions() {
         "startHere", menu, tr("Start from the state at the cursor"), {QKeySequence(Qt::CTRL | Qt::Key_I)},
         [this] { startFromCursor(); },
         tr("The initial data are where the selected scheme, or the first one, is at the cursor"));
+    QAction* const plays = actions_->add(
+        "playWhenOpened", menu, tr("Play when a scene opens"), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_O)},
+        [this] {
+            playsWhenOpened_ = !playsWhenOpened_;
+            if (isRemembered_) QSettings().setValue("window/plays", playsWhenOpened_);
+        },
+        tr("The stage moves as soon as there are results"));
+    plays->setCheckable(true);
+    playsWhenOpened_ = isRemembered_ && QSettings().value("window/plays", true).toBool();
+    plays->setChecked(playsWhenOpened_);
     actions_->addSeparator(menu);
     actions_->add("restart", menu, tr("Compute again"), {QKeySequence(Qt::Key_R)}, [this] { run_->start(); });
     actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)}, [this] {
