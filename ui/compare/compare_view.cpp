@@ -15,6 +15,7 @@
 #include "engine/view/axes.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
+#include "ui/compare/body_dragging.hpp"
 #include "ui/compare/case_preview.hpp"
 #include "ui/compare/plot_edits.hpp"
 #include "ui/compare/starting.hpp"
@@ -77,6 +78,7 @@ void CompareView::makeStage() {
     makeMaximizable(*stageCard_);
     connectDrawing();
     connectPreview();
+    connectBodies();
 }
 
 void CompareView::connectState() {
@@ -117,33 +119,6 @@ QString CompareView::selectedLabel() const {
     return i >= 0 && i < static_cast<int>(schemes.size())
                ? QString::fromStdString(schemes[static_cast<std::size_t>(i)].label)
                : QString();
-}
-
-void CompareView::connectDrawing() {
-    draw_ = stageCard_->menu()->addAction(tr("Draw the initial profile"));
-    draw_->setCheckable(true);
-    draw_->setToolTip(
-        tr("Dragging on the stage changes u at the start; so does dragging with Ctrl at any time"));
-    connect(draw_, &QAction::toggled, stage_, &StageWidget::setDrawing);
-    connect(stageCard_->menu(), &QMenu::aboutToShow, this,
-            [this] { draw_->setVisible(ProfileDrawing::of(workspace_.scene()).has_value()); });
-    connect(stage_, &StageWidget::strokeStarted, this, [this] {
-        drawing_ = workspace_.hasScene() ? ProfileDrawing::of(workspace_.scene()) : std::nullopt;
-        if (!drawing_) return;
-        playback_.setPlaying(false);
-        playback_.setTime(workspace_.scene().start.value);
-    });
-    connect(stage_, &StageWidget::stroke, this, [this](const Point& from, const Point& to) {
-        if (!drawing_) return;
-        drawing_->stroke(from, to);
-        stage_->setSketch(drawing_->line());
-    });
-    // One edit per stroke: the run starts anew when the mouse is let go.
-    connect(stage_, &StageWidget::strokeEnded, this, [this] {
-        stage_->setSketch({});
-        if (drawing_) workspace_.edit(drawing_->edits(), tr("the initial profile"));
-        drawing_.reset();
-    });
 }
 
 std::vector<std::function<void()>> CompareView::partsOfTheme(const Theme& theme) {
@@ -365,13 +340,13 @@ void CompareView::resizeEvent(QResizeEvent* event) {
 }
 
 void CompareView::refresh() {
-    const auto results = run_.results();
+    const auto results = shownResults();
     if (!results) {
         staged_.reset();
         stage_->setPlayer({});
         return;
     }
-    for (const auto& s : slots_) s->plot->setStale(run_.isStale());
+    for (const auto& s : slots_) s->plot->setStale(run_.isStale() || isPreviewing());
     if (!system_ || results->system != system_) {
         system_ =
             results->system ? results->system : std::make_shared<const System>(makeSystem(results->scene));
@@ -382,12 +357,13 @@ void CompareView::refresh() {
         }
     }
     showStarts();
+    tellOfHand();
     startJob();
 }
 
 /// What has to be made for the latest results.
 FigureJob CompareView::missing() const {
-    FigureJob job{run_.results(), {}, false};
+    FigureJob job{shownResults(), {}, false};
     if (!job.results) return job;
     for (const auto& s : slots_)
         if (!s->shown || !(s->shownView == s->view) || !isSameData(*s->shown, *job.results))
@@ -420,11 +396,12 @@ void CompareView::startJob() {
 }
 
 void CompareView::complete() {
+    bodies_->cancel();
     if (run_.results()) take(makeFigures(missing()));
 }
 
 void CompareView::take(FigureSet made) {
-    const auto latest = run_.results();
+    const auto latest = shownResults();
     // Of another scene: that one's are on their way.
     if (!made.job.results || !latest || !(latest->scene.model.type == made.job.results->scene.model.type))
         return;
@@ -436,6 +413,8 @@ void CompareView::take(FigureSet made) {
         Slot& s = **slot;
         s.shown = made.job.results;
         s.shownView = view;
+        // A preview lacks what takes long, as errors do: such plots stay as they were, pale.
+        if (isPreviewing() && (isEmpty(made.figures[i]) || view.id == "work-precision")) continue;
         addSweep(view, made.figures[i]);
         s.card->setTitle(QString::fromStdString(made.figures[i].title));
         s.card->setSubtitle(QString::fromStdString(made.figures[i].subtitle));

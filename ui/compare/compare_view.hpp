@@ -23,6 +23,7 @@ class QScrollArea;
 namespace extremal {
 
 class BackgroundSweep;
+class BodyDragging;
 class Card;
 class CasePreview;
 class Playback;
@@ -75,6 +76,8 @@ public:
     void complete();
     /// Figures made so far, each of one plot: what is not needed is not made, which tests count.
     long long figuresMade() const { return figuresMade_; }
+    /// Whether the plots show short runs from where a body is dragged.
+    bool isPreviewing() const;
 
 signals:
     void saveFailed(const QString& reason);
@@ -109,9 +112,13 @@ private:
     void take(FigureSet made);
     void alignMargins();
     void loadCase(const View& view, double value, double step);
-    QString selectedLabel() const;     ///< empty: no scheme is selected
-    void connectDrawing();             ///< of initial profiles, on the stage
-    void connectPreview();             ///< of cases of maps, on the stage
+    QString selectedLabel() const;  ///< empty: no scheme is selected
+    void connectDrawing();          ///< of initial profiles, on the stage
+    void connectPreview();          ///< of cases of maps, on the stage
+    void connectBodies();           ///< that are dragged on the stage
+    void tellOfHand();              ///< what cannot be dragged, in the tooltip of the stage
+    /// What is shown: the results, or a preview of others.
+    std::shared_ptr<const Comparison> shownResults() const;
     void connectCases(Slot& slot);     ///< of its map
     void connectStarting(Slot& slot);  ///< of motions, in its plot
     void showWanted();
@@ -134,7 +141,8 @@ private:
     QAction* draw_ = nullptr;
     std::optional<ProfileDrawing> drawing_;  ///< of the stroke that is being made
     StageWidget* stage_;
-    CasePreview* preview_;                      ///< of a case of a map, on the stage
+    CasePreview* preview_;  ///< of a case of a map, on the stage
+    BodyDragging* bodies_;
     std::shared_ptr<const Comparison> staged_;  ///< what the stage shows
     std::vector<std::unique_ptr<Slot>> slots_;
     std::shared_ptr<const System> system_;  ///< of the results

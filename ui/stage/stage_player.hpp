@@ -43,6 +43,17 @@ public:
 
     StageFrame frame(double t, const StageStyle& style) const;
 
+    /// A body as a scheme has it at a time: a disc of the drawing of its state.
+    struct Grip {
+        std::vector<double> x;
+        std::size_t shape = 0;  ///< its place among the shapes
+        Point place{};
+    };
+    /// The body nearest to a pixel, x right and y up from the middle, and no farther than `reach` from its
+    /// rim; none where there is no body or the bodies of the system cannot be moved.
+    std::optional<Grip> gripAt(double t, const Camera& camera, double x, double y, double reach) const;
+    const System& system() const { return system_; }
+
 private:
     /// The rows of one scheme that can be drawn: those before the first value that is not finite.
     struct Track {

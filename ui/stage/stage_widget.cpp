@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/stage/stage_widget.hpp"
 
+#include <QElapsedTimer>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <future>
 #include <optional>
@@ -56,12 +58,34 @@ struct StageWidget::Impl {
     std::optional<Camera> chosen;  ///< the user's view; empty: everything is shown
     QPointF dragged;
     bool isDragging = false, isStroke = false, isDrawing = false;
+    std::optional<StagePlayer::Grip> hovered;  ///< the body under the pointer
+    std::optional<StagePlayer::Grip> gripped;  ///< that which is dragged
+    std::optional<Camera> held;                ///< the view while it is dragged
+    std::optional<Point> arrow;                ///< the end of the velocity that it is given
+    std::optional<Drawing> ghost;
+    struct Moment {
+        qint64 ms;
+        QPointF place;
+    };
+    std::deque<Moment> recent;  ///< of the pointer, while a body is dragged
+    QElapsedTimer clock;
+    QPointF taken;  ///< where it was pressed
     std::vector<Point> sketch;
     OverlayOptions overlay;
     bool hasGrid = false;
 
     Camera camera() const {
-        return chosen ? *chosen : player.fittedCamera(self->width(), self->height(), stageMargin);
+        if (held) return *held;
+        return chosen ? *chosen : fitted();
+    }
+    /// The motion fills the widget but for a margin, and a line of words at the foot.
+    Camera fitted() const {
+        constexpr double part = 0.08, least = 14, foot = 20;
+        const double height = self->height() - foot;
+        const double margin = std::max(least, part * std::min<double>(self->width(), height));
+        Camera camera = player.fittedCamera(self->width(), height, margin);
+        camera.centre = camera.unproject(0, -foot / 2);
+        return camera;
     }
     const StageFrame& currentFrame() {
         if (!isFrameCurrent) {
@@ -80,6 +104,7 @@ struct StageWidget::Impl {
         } else if (player.hasStage()) {
             paintOverlay(painter, area, currentFrame(), player, theme, {overlay.hasLegend, camera()});
             paintSketch(painter);
+            paintHand(painter);
         } else
             paintMessage(painter, player.comparison() && !player.comparison()->schemes.empty()
                                       ? QStringLiteral("Waiting for the first step")
@@ -96,6 +121,65 @@ struct StageWidget::Impl {
         painter.setRenderHint(QPainter::Antialiasing);
         painter.setPen(QPen(theme.accent, 2, Qt::DashLine));
         painter.drawPolyline(line);
+    }
+    QPointF onWidget(const Point& p) const {
+        const Point at = camera().project(p);
+        return {self->width() / 2.0 + at[0], self->height() / 2.0 - at[1]};
+    }
+    /// The body under the pointer or in the hand, and what becomes of it.
+    void paintHand(QPainter& painter) const {
+        painter.setRenderHint(QPainter::Antialiasing);
+        if (ghost) paintGhost(painter);
+        const StagePlayer::Grip* const body = gripped ? &*gripped : hovered ? &*hovered : nullptr;
+        if (!body) return;
+        painter.setFont(theme.caption());
+        painter.setPen(theme.muted);
+        painter.drawText(QRectF(0, 0, self->width() - 12, self->height() - 6),
+                         Qt::AlignRight | Qt::AlignBottom,
+                         QStringLiteral("drag: start from here   Shift and drag, or throw: velocity"));
+        Point place = body->place;
+        if (gripped && ghost && gripped->shape < ghost->shapes.size())
+            if (const auto* disc = std::get_if<Disc>(&ghost->shapes[gripped->shape])) place = disc->centre;
+        const QPointF at = onWidget(place);
+        painter.setPen(QPen(theme.accent, 2));
+        painter.setBrush(Qt::NoBrush);
+        painter.drawEllipse(at, 13, 13);
+        if (!arrow) return;
+        const QPointF end = onWidget(*arrow);
+        painter.drawLine(at, end);
+        const double angle = std::atan2(end.y() - at.y(), end.x() - at.x());
+        for (const double side : {2.6, -2.6})
+            painter.drawLine(end, end + 9 * QPointF(std::cos(angle + side), std::sin(angle + side)));
+    }
+    void paintGhost(QPainter& painter) const {
+        QColor colour = theme.accent;
+        colour.setAlphaF(0.75f);
+        painter.setPen(QPen(colour, 2));
+        for (const Shape& shape : ghost->shapes) {
+            if (const auto* rod = std::get_if<Segment>(&shape); rod && rod->role == ShapeRole::body)
+                painter.drawLine(onWidget(rod->a), onWidget(rod->b));
+            if (const auto* spring = std::get_if<Spring>(&shape))
+                painter.drawLine(onWidget(spring->a), onWidget(spring->b));
+            if (const auto* disc = std::get_if<Disc>(&shape); disc && disc->role == ShapeRole::body) {
+                painter.setBrush(colour);
+                painter.drawEllipse(onWidget(disc->centre), disc->radius, disc->radius);
+                painter.setBrush(Qt::NoBrush);
+            }
+        }
+    }
+    std::optional<StagePlayer::Grip> gripAt(QPointF place) const {
+        constexpr double reach = 6;
+        return player.gripAt(t, camera(), place.x() - self->width() / 2.0, self->height() / 2.0 - place.y(),
+                             reach);
+    }
+    /// The point as deep as `from` that is seen so many pixels right of it and above it.
+    Point beside(const Point& from, QPointF by) const {
+        const Camera seen = camera();
+        const auto axes = seen.axes();
+        Point r = from;
+        for (std::size_t i = 0; i < 3; ++i)
+            r[i] += (axes[0][i] * by.x() - axes[1][i] * by.y()) / seen.pixelsPerUnit;
+        return r;
     }
     /// The point of the model under a place of the widget.
     Point under(QPointF place) const {
@@ -126,8 +210,7 @@ struct StageWidget::Impl {
         Camera next = camera();
         const double x = place.x() - self->width() / 2.0, y = self->height() / 2.0 - place.y();
         const Point under = next.unproject(x, y);
-        const double least =
-            1e-6 * player.fittedCamera(self->width(), self->height(), stageMargin).pixelsPerUnit;
+        const double least = 1e-6 * fitted().pixelsPerUnit;
         next.pixelsPerUnit = std::clamp(next.pixelsPerUnit * factor, 1e5 * least, 1e12 * least);
         const Point moved = next.unproject(x, y);
         for (std::size_t i = 0; i < 3; ++i) next.centre[i] += under[i] - moved[i];
@@ -147,6 +230,7 @@ StageWidget::StageWidget(QWidget* parent) : QWidget(parent), impl_(std::make_uni
     };
     impl_->canvas = makeCanvas(this, std::move(source), impl_->usesGraphicsCard);
     impl_->words = new Words(this, [this](QPainter& painter) { impl_->paintWords(painter); });
+    setMouseTracking(true);
     setAccessibleName(QStringLiteral("Stage"));
     setAccessibleDescription(stageSummary(impl_->player));
 }
@@ -174,6 +258,7 @@ void StageWidget::setPlayer(StagePlayer player) {
 void StageWidget::setTime(double t) {
     if (t == impl_->t) return;
     impl_->t = t;
+    if (!impl_->gripped) impl_->hovered.reset();  // it has moved on
     impl_->changed();
 }
 
@@ -191,6 +276,10 @@ void StageWidget::setGridShown(bool isShown) {
 
 void StageWidget::setDrawing(bool isOn) { impl_->isDrawing = isOn; }
 bool StageWidget::isDrawing() const { return impl_->isDrawing; }
+void StageWidget::setGhost(std::optional<Drawing> ghost) {
+    impl_->ghost = std::move(ghost);
+    impl_->words->update();
+}
 void StageWidget::setSketch(std::vector<Point> points) {
     impl_->sketch = std::move(points);
     impl_->words->update();
@@ -198,6 +287,7 @@ void StageWidget::setSketch(std::vector<Point> points) {
 
 void StageWidget::fit() { impl_->choose(std::nullopt); }
 void StageWidget::zoom(double factor) { impl_->zoomAt(factor, QRectF(rect()).center()); }
+Camera StageWidget::camera() const { return impl_->camera(); }
 bool StageWidget::isFitted() const { return !impl_->chosen; }
 bool StageWidget::usesGraphicsCard() const { return impl_->usesGraphicsCard; }
 
@@ -241,14 +331,32 @@ void StageWidget::mousePressEvent(QMouseEvent* event) {
     impl_->dragged = event->position();
     const bool draws = impl_->isDrawing || (event->modifiers() & Qt::ControlModifier);
     impl_->isStroke = draws && impl_->player.hasStage() && !impl_->player.isSpatial();
-    if (!impl_->isStroke) return setCursor(Qt::ClosedHandCursor);
+    if (!impl_->isStroke) {
+        impl_->gripped = impl_->gripAt(event->position());
+        setCursor(Qt::ClosedHandCursor);
+        if (!impl_->gripped) return;
+        impl_->held = impl_->camera();
+        impl_->taken = event->position();
+        impl_->recent.clear();
+        impl_->clock.start();
+        emit bodyTaken(*impl_->gripped);
+        return;
+    }
     setCursor(Qt::CrossCursor);
     emit strokeStarted();
     emit stroke(impl_->under(event->position()), impl_->under(event->position()));
 }
 
 void StageWidget::mouseMoveEvent(QMouseEvent* event) {
-    if (!impl_->isDragging) return QWidget::mouseMoveEvent(event);
+    if (!impl_->isDragging) {
+        const bool had = impl_->hovered.has_value();
+        impl_->hovered = impl_->gripAt(event->position());
+        if (impl_->hovered) setCursor(Qt::OpenHandCursor);
+        if (!impl_->hovered && had) unsetCursor();
+        if (had || impl_->hovered) impl_->words->update();
+        return QWidget::mouseMoveEvent(event);
+    }
+    if (impl_->gripped) return moveBody(*event);
     const QPointF by = event->position() - impl_->dragged;
     if (by.manhattanLength() < 1) return;
     const QPointF before = std::exchange(impl_->dragged, event->position());
@@ -271,7 +379,49 @@ void StageWidget::mouseMoveEvent(QMouseEvent* event) {
 void StageWidget::mouseReleaseEvent(QMouseEvent*) {
     impl_->isDragging = false;
     unsetCursor();
+    if (impl_->gripped) return letBody();
     if (std::exchange(impl_->isStroke, false)) emit strokeEnded();
+}
+
+void StageWidget::moveBody(const QMouseEvent& event) {
+    constexpr std::size_t most = 64;
+    impl_->recent.push_back({impl_->clock.elapsed(), event.position()});
+    if (impl_->recent.size() > most) impl_->recent.pop_front();
+    const bool isVelocity = event.modifiers() & Qt::ShiftModifier;
+    const Point target = impl_->beside(impl_->gripped->place, event.position() - impl_->taken);
+    if (isVelocity)
+        impl_->arrow = target;
+    else
+        impl_->arrow.reset();
+    impl_->words->update();
+    emit bodyMoved(target, isVelocity);
+}
+
+/// The pointer's velocity is that of its last tenth of a second; one that rests before throws nothing.
+void StageWidget::letBody() {
+    constexpr qint64 lately = 100;
+    constexpr double slow = 250;  // pixels per second
+    const qint64 now = impl_->clock.elapsed();
+    while (!impl_->recent.empty() && now - impl_->recent.front().ms > lately) impl_->recent.pop_front();
+    QPointF speed;
+    if (impl_->recent.size() > 1 && !impl_->arrow) {
+        const auto &first = impl_->recent.front(), &last = impl_->recent.back();
+        speed =
+            (last.place - first.place) * (1000.0 / static_cast<double>(std::max<qint64>(1, now - first.ms)));
+    }
+    if (std::hypot(speed.x(), speed.y()) < slow) speed = {};
+    const Point velocity = impl_->beside({}, speed);
+    impl_->gripped.reset();
+    impl_->hovered.reset();
+    impl_->held.reset();
+    impl_->arrow.reset();
+    emit bodyLet(velocity);
+    impl_->repaint();
+}
+
+void StageWidget::leaveEvent(QEvent* event) {
+    if (std::exchange(impl_->hovered, std::nullopt)) impl_->words->update();
+    QWidget::leaveEvent(event);
 }
 
 void StageWidget::mouseDoubleClickEvent(QMouseEvent*) {

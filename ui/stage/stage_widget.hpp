@@ -6,10 +6,12 @@
 ///     stage->setComparison(comparison);   // again whenever there are new rows: the view stays where the
 ///     user put it stage->setTime(6.2);
 ///
-/// The wheel zooms at the pointer, dragging pans, a double click (or fit()) shows everything again. While
-/// drawing is on, and with Ctrl, dragging makes strokes in place of panning, where the picture is flat. The
-/// picture comes from the graphics card, or through OSMesa where there is no real OpenGL (a remote or virtual
-/// display, the offscreen platform); where neither is to be had the widget says what to install.
+/// The wheel zooms at the pointer, dragging pans, a double click (or fit()) shows everything again. A body
+/// under the pointer lights up, and dragging it says where it goes; with Shift, or let go while the mouse
+/// moves, it says with which velocity. While drawing is on, and with Ctrl, dragging makes strokes in place of
+/// panning, where the picture is flat. The picture comes from the graphics card, or through OSMesa where
+/// there is no real OpenGL (a remote or virtual display, the offscreen platform); where neither is to be had
+/// the widget says what to install.
 #pragma once
 
 #include <QWidget>
@@ -19,11 +21,11 @@
 
 #include "engine/model/drawing.hpp"
 #include "engine/run/comparison.hpp"
+#include "ui/stage/stage_player.hpp"
 
 namespace extremal {
 
 struct Theme;
-class StagePlayer;
 
 class StageWidget : public QWidget {
     Q_OBJECT
@@ -43,12 +45,15 @@ public:
     void setGridShown(bool isShown);
     void fit();
     void zoom(double factor);  ///< about the middle
+    Camera camera() const;     ///< of the present view
     bool isFitted() const;     ///< false once the user has zoomed or panned
     bool usesGraphicsCard() const;
     /// What draws it: the graphics card or software, as OpenGL names itself, or what is missing.
     QString drawingBackend() const;
     void setDrawing(bool isOn);
     bool isDrawing() const;
+    /// Shapes above the picture, as a body that is dragged has them. Null: none.
+    void setGhost(std::optional<Drawing> ghost);
     /// A line above the picture, in the model's coordinates: what is being drawn. Empty: none.
     void setSketch(std::vector<Point> points);
 
@@ -64,6 +69,11 @@ signals:
     void strokeStarted();
     void stroke(const Point& from, const Point& to);  ///< in the model's coordinates
     void strokeEnded();
+    void bodyTaken(const StagePlayer::Grip& grip);
+    /// Where the pointer wants it, in the model's coordinates; with Shift the end of its velocity.
+    void bodyMoved(const Point& target, bool isVelocity);
+    /// With the velocity of the pointer per second, 0 where it was at rest.
+    void bodyLet(const Point& velocity);
 
 protected:
     void resizeEvent(QResizeEvent*) override;
@@ -72,8 +82,11 @@ protected:
     void mouseMoveEvent(QMouseEvent*) override;
     void mouseReleaseEvent(QMouseEvent*) override;
     void mouseDoubleClickEvent(QMouseEvent*) override;
+    void leaveEvent(QEvent*) override;
 
 private:
+    void moveBody(const QMouseEvent& event);
+    void letBody();
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What the hand does on the stage: bodies are dragged and the plots follow, and initial profiles are drawn.
+#include <QAction>
+#include <QMenu>
+
+#include "ui/base/card.hpp"
+#include "ui/compare/body_dragging.hpp"
+#include "ui/compare/compare_view.hpp"
+#include "ui/stage/stage_widget.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/run_control.hpp"
+#include "ui/workspace/workspace.hpp"
+
+namespace extremal {
+
+void CompareView::connectDrawing() {
+    draw_ = stageCard_->menu()->addAction(tr("Draw the initial profile"));
+    draw_->setCheckable(true);
+    draw_->setToolTip(
+        tr("Dragging on the stage changes u at the start; so does dragging with Ctrl at any time"));
+    connect(draw_, &QAction::toggled, stage_, &StageWidget::setDrawing);
+    connect(stageCard_->menu(), &QMenu::aboutToShow, this,
+            [this] { draw_->setVisible(ProfileDrawing::of(workspace_.scene()).has_value()); });
+    connect(stage_, &StageWidget::strokeStarted, this, [this] {
+        drawing_ = workspace_.hasScene() ? ProfileDrawing::of(workspace_.scene()) : std::nullopt;
+        if (!drawing_) return;
+        playback_.setPlaying(false);
+        playback_.setTime(workspace_.scene().start.value);
+    });
+    connect(stage_, &StageWidget::stroke, this, [this](const Point& from, const Point& to) {
+        if (!drawing_) return;
+        drawing_->stroke(from, to);
+        stage_->setSketch(drawing_->line());
+    });
+    // One edit per stroke: the run starts anew when the mouse is let go.
+    connect(stage_, &StageWidget::strokeEnded, this, [this] {
+        stage_->setSketch({});
+        if (drawing_) workspace_.edit(drawing_->edits(), tr("the initial profile"));
+        drawing_.reset();
+    });
+}
+
+void CompareView::connectBodies() {
+    bodies_ = new BodyDragging(workspace_, run_, playback_, *stage_, this);
+    connect(bodies_, &BodyDragging::refused, this, &CompareView::startRefused);
+    connect(bodies_, &BodyDragging::previewed, this, [this] {
+        stageCard_->setSubtitle(isPreviewing() ? tr("a short run from here") : QString());
+        if (run_.results()) refresh();
+    });
+}
+
+bool CompareView::isPreviewing() const { return bodies_->preview() != nullptr; }
+
+std::shared_ptr<const Comparison> CompareView::shownResults() const {
+    return isPreviewing() ? bodies_->preview() : run_.results();
+}
+
+void CompareView::tellOfHand() {
+    if (!system_) return;
+    const bool isByHand = hasMovableBodies(*system_);
+    stage_->setToolTip(
+        isByHand ? QString()
+        : system_->parts.find<ScalarField>()
+            ? tr("Drag with Ctrl to draw the initial profile.")
+            : tr("The bodies of this model are not dragged: its state is more than coordinates. "
+                 "Its start is set in the form on the left."));
+}
+
+}  // namespace extremal
