@@ -60,7 +60,7 @@ void CompareView::tellOfHand() {
     const bool isByHand = hasMovableBodies(*system_);
     stage_->setToolTip(
         isByHand ? QString()
-        : system_->parts.find<ScalarField>()
+        : system_->field.isGraph
             ? tr("Drag with Ctrl to draw the initial profile.")
             : tr("The bodies of this model are not dragged: its state is more than coordinates. "
                  "Its start is set in the form on the left."));

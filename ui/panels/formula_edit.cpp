@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "ui/base/theme.hpp"
-#include "ui/text/tex_formula.hpp"
+#include "ui/workspace/tex_formula.hpp"
 
 namespace extremal {
 

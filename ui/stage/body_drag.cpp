@@ -49,9 +49,7 @@ std::vector<double> leastChange(const std::vector<double>& J, const Point& wante
 
 }  // namespace
 
-bool hasMovableBodies(const System& system) {
-    return system.hasCoordinates() && system.draw && system.parts.find<Mechanical>();
-}
+bool hasMovableBodies(const System& system) { return system.hasCoordinates() && system.draw; }
 
 BodyDrag::BodyDrag(std::shared_ptr<const System> system, State state, std::size_t shape)
     : system_(std::move(system)), state_(std::move(state)), shape_(shape) {}

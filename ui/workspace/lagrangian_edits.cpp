@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/core/text/expression.hpp"
-#include "ui/text/tex_formula.hpp"
+#include "ui/workspace/tex_formula.hpp"
 
 namespace extremal {
 

@@ -167,6 +167,26 @@ Value initialOf(const Value& document, const Names& before, const Names& after,
     return initial;
 }
 
+/// The coordinates and initial data for them: the first ones from which the system can start, where these are
+/// tried.
+void addCoordinates(const Value& document, const Names& before, const Names& after,
+                    const std::map<std::string, Value>& remembered, bool triesStarts,
+                    std::vector<Edit>& edits) {
+    Value::Array list;
+    for (const std::string& name : after) list.emplace_back(name);
+    edits.insert(edits.begin(), {"/model/coordinates", Value(std::move(list))});
+    if (after != before) edits.push_back({"/views", std::nullopt});
+    const std::size_t last = edits.size();
+    edits.push_back({"/initial", initialOf(document, before, after, remembered, 0)});
+    if (!triesStarts) return;
+    const Value first = *edits[last].value;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+        edits[last].value = initialOf(document, before, after, remembered, attempt);
+        if (readScene(withEdits(document, edits)).errors.empty()) return;
+    }
+    edits[last].value = first;
+}
+
 QString sentence(const Names& coordinates, const Names& parameters, const Value::Object& values) {
     const auto tr = [](const char* text) { return QCoreApplication::translate("extremal", text); };
     QStringList parts;
@@ -273,22 +293,8 @@ TypedNames::Outcome TypedNames::outcomeOf(const Value& document, const std::stri
     out.changesNames = hasOtherCoordinates || !(parameters == parametersAt(document));
     if (out.changesNames || hasRefusedNames_)
         out.edits.insert(out.edits.begin(), {"/model/parameters", Value(parameters)});
-    if (hasOtherCoordinates || hasRefusedNames_) {
-        Value::Array list;
-        for (const std::string& name : after) list.emplace_back(name);
-        out.edits.insert(out.edits.begin(), {"/model/coordinates", Value(std::move(list))});
-        std::vector<Edit> base = out.edits;
-        if (hasOtherCoordinates) base.push_back({"/views", std::nullopt});
-        for (int attempt = 0; attempt < (hasOtherCoordinates && triesStarts ? attempts : 1); ++attempt) {
-            std::vector<Edit> edits = base;
-            edits.push_back({"/initial", initialOf(document, before, after, remembered_, attempt)});
-            if (attempt == 0) out.edits = edits;
-            if (!triesStarts || !hasOtherCoordinates) break;
-            if (!readScene(withEdits(document, edits)).errors.empty()) continue;
-            out.edits = edits;
-            break;
-        }
-    }
+    if (hasOtherCoordinates || hasRefusedNames_)
+        addCoordinates(document, before, after, remembered_, triesStarts && hasOtherCoordinates, out.edits);
     // Places and lengths change by mouse and slider: the start follows the constraints.
     if (place.starts_with("/model/constraints/") && !valueAt(document, "/initial/project"))
         out.edits.push_back({"/initial/project", true});

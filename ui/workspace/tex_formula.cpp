@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/text/tex_formula.hpp"
+#include "ui/workspace/tex_formula.hpp"
 
 #include <QHash>
 #include <QSet>

@@ -4,7 +4,7 @@
 
 #include "engine/core/text/expression.hpp"
 #include "tests/tools/test.hpp"
-#include "ui/text/tex_formula.hpp"
+#include "ui/workspace/tex_formula.hpp"
 
 namespace extremal::tex_formula_test {
 
