@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/typed/symbolic.hpp"
+#include "engine/model/typed/derivatives_found.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -463,15 +463,10 @@ ex Leaf::derivative(const GiNaC::symbol& s) const {
     return kind_ == Kind::part ? engine_->derivativeOfPart(index_, s) : GiNaC::symbol::derivative(s);
 }
 
-/// What was found for a formula: derivatives, or why there are none; neither if it was stopped.
-struct Finding {
-    std::shared_ptr<const SymbolicLagrangian> result;
-    std::optional<ExpressionError> error;
-    double work = 0;  ///< what it has taken (core/work.hpp)
-};
+}  // namespace
 
-Finding find(const Formula& formula, const ResolvedFormula& resolved, const std::stop_token& stop,
-             double maxWork) {
+DerivativesFound findDerivatives(const Formula& formula, const ResolvedFormula& resolved,
+                                 const std::stop_token& stop, double maxWork) {
     try {
         return {std::make_shared<const SymbolicLagrangian>(Engine(formula, resolved, stop, maxWork).run()),
                 {}};
@@ -489,62 +484,6 @@ Finding find(const Formula& formula, const ResolvedFormula& resolved, const std:
                  e) {  // GiNaC's pole_error and the like: a part is infinite whatever the state is
         return {nullptr, ExpressionError("is not finite: " + std::string(e.what()), 0)};
     }
-}
-
-/// The last findings. Its lock is held for a moment only, while GiNaC may be at work for seconds.
-class Memory {
-public:
-    struct Key {
-        std::vector<std::string> names;
-        std::string text;
-        std::vector<double> exponents;
-        bool operator==(const Key&) const = default;
-    };
-    std::optional<Finding> recall(const Key& key) {
-        const std::lock_guard lock(mutex_);
-        const auto found =
-            std::find_if(known_.begin(), known_.end(), [&](const auto& k) { return k.first == key; });
-        if (found == known_.end()) return {};
-        known_.splice(known_.begin(), known_, found);
-        return found->second;
-    }
-    void keep(const Key& key, const Finding& finding) {
-        constexpr std::size_t remembered = 24;
-        const std::lock_guard lock(mutex_);
-        known_.emplace_front(key, finding);
-        if (known_.size() > remembered) known_.pop_back();
-    }
-
-private:
-    std::mutex mutex_;
-    std::list<std::pair<Key, Finding>> known_;
-};
-
-}  // namespace
-
-std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula, const std::stop_token& stop,
-                                                        double maxWork) {
-    static Memory memory;
-    static std::mutex working;
-
-    const ResolvedFormula resolved = resolve(formula);
-    Memory::Key key{formula.coordinates, formula.text, resolved.exponents};
-    key.names.emplace_back();
-    for (const auto& parameter : formula.parameters) key.names.push_back(parameter.first);
-    std::optional<Finding> finding = memory.recall(key);
-    if (!finding) {
-        const std::lock_guard lock(working);
-        finding = memory.recall(key);  // another thread may have been at it
-        if (!finding) {
-            const work::Measured measured;
-            finding = find(formula, resolved, stop, maxWork);
-            finding->work = measured.spent();
-            if (finding->result || finding->error) memory.keep(key, *finding);
-        }
-    }
-    work::spendOnce("derivatives of " + formula.text, finding->work);
-    if (finding->error) throw *finding->error;
-    return finding->result;
 }
 
 }  // namespace extremal::typed

@@ -200,6 +200,16 @@ private slots:
                          {"controls",
                           Value::Object{{"u", Value::Object{{"table", Value::Array{Value::Array{0, 0.7},
                                                                                    Value::Array{4, 0}}}}}}}});
+        // Another function under the same name is another force.
+        const State steeper = end({{"forces", force}, {"controls", Value::Object{{"u", "F*(1 - t/2)"}}}}),
+                    flat = end({{"forces", force},
+                                {"controls",
+                                 Value::Object{
+                                     {"u", Value::Object{{"table", Value::Array{Value::Array{0, 0.7},
+                                                                                Value::Array{4, 0.7}}}}}}}}),
+                    constant = end({{"forces", Value::Object{{"x", "0.7"}}}});
+        QVERIFY(distance(out, steeper).q > 0.1);
+        QVERIFY(distance(flat, constant).q < 1e-15 && distance(flat, table).q > 0.1);
         QVERIFY(distance(out, formula).q == 0 && distance(out, formula).p == 0);
         QVERIFY(distance(out, table).q < 1e-15 && distance(out, table).p < 1e-15);
         // In the Lagrangian as well.
