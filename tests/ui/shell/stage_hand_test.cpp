@@ -111,20 +111,6 @@ private slots:
         QVERIFY(wanted > 0);
         QVERIFY(std::abs(window.number("/initial/q/0") - place[0]) < 1e-9);
     }
-    void aBodyThatIsThrownFlies() {
-        Window window("kepler");
-        const QPoint from = window.onStage(window.body(0));
-        QTest::mousePress(&window.stage(), Qt::LeftButton, {}, from);
-        for (int i = 1; i <= 6; ++i) {
-            QTest::qWait(8);
-            window.move(from + QPoint(0, -14 * i));
-        }
-        QTest::mouseRelease(&window.stage(), Qt::LeftButton, {}, from + QPoint(0, -84));
-        QVERIFY(valueAt(window.workspace().document(), "/initial/v"));
-        QVERIFY(window.number("/initial/v/1") > 0);
-        QTRY_VERIFY(window.playback().isPlaying());
-        window.playback().setPlaying(false);
-    }
     void aMechanismIsDraggedAlongItsRods() {
         Window window("double-pendulum-rods");
         const QPoint from = window.onStage(window.body(1)), to = from + QPoint(25, -25);
