@@ -20,6 +20,10 @@ public:
     std::unique_ptr<Integrator> clone() const override {
         return std::make_unique<LeapfrogOnConstraints>(*this);
     }
+    void begin(State& state) override {
+        state.memory.clear();
+        lambda_.setZero();
+    }
     bool checkpoint(Archive& archive) override {
         archive(lambda_);
         return true;

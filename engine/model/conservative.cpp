@@ -17,11 +17,15 @@ std::string_view timeDependentPart(const System& system) {
     return {};
 }
 
-bool conservesEnergy(const System& system) {
-    const Wall* const wall = system.parts.find<Wall>();
-    const Rolling* const rolling = system.parts.find<Rolling>();
-    return timeDependentPart(system).empty() && !system.parts.find<Force>() &&
-           !(rolling && rolling->isDriven) && (!wall || wall->isElastic());
+std::string energySource(const System& system) {
+    if (const std::string_view part = timeDependentPart(system); !part.empty())
+        return std::string(part) + " depends on time";
+    if (system.parts.find<Force>()) return "forces act";
+    if (const Rolling* const rolling = system.parts.find<Rolling>(); rolling && rolling->isDriven)
+        return "a rolling condition does work";
+    if (const Wall* const wall = system.parts.find<Wall>(); wall && !wall->isElastic())
+        return "impacts take energy";
+    return {};
 }
 
 }  // namespace extremal

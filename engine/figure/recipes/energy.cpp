@@ -48,12 +48,9 @@ Figure makeEnergy(const FigureContext& context) {
     addChance(figure, context);
     const std::string trends = trendsOf(context.comparison, scale);
     const bool known = !trends.empty();
-    const std::string_view driven = context.system ? timeDependentPart(*context.system) : std::string_view();
+    const std::string source = context.system ? energySource(*context.system) : std::string();
     figure.subtitle = trends;
-    if (known && !driven.empty())
-        figure.subtitle = "no invariant: " + std::string(driven) + " depends on time";
-    else if (known && context.system && !conservesEnergy(*context.system))
-        figure.subtitle = "no invariant: forces act";
+    if (known && !source.empty()) figure.subtitle = "no invariant: " + source;
     std::vector<std::pair<double, std::string>> largest;
     if (isAgainstSteps(context.view) && scale > 0)
         for (const Series& s : figure.series())

@@ -39,7 +39,11 @@ public:
         return {{"before", static_cast<std::size_t>(2 * d())}};
     }
     /// The state itself where there is none before.
-    void begin(State& state) override { state.memory.assign(state.x.begin(), state.x.begin() + 2 * d()); }
+    void begin(State& state) override {
+        state.memory.assign(state.x.begin(), state.x.begin() + 2 * d());
+        lambda_.setZero();
+        mu_.setZero();
+    }
     bool checkpoint(Archive& archive) override {
         archive(lambda_, mu_);
         return true;

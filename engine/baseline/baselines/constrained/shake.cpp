@@ -6,14 +6,14 @@ namespace extremal::baselines {
 
 BaselineEntry shake() {
     BaselineEntry e;
-    e.item = {
-        "shake",
-        "SHAKE",
-        "Störmer-Verlet with constraints on places alone: the places of RATTLE, and velocities that leave "
-        "the constraint by the order of the step.",
-        {},
-        Claims{2, false, false, {}},
-        "constraints and constant masses"};
+    e.item = {"shake",
+              "SHAKE",
+              "Störmer-Verlet with constraints on places alone: the places of RATTLE, of order 2, and "
+              "momenta of order 1 "
+              "that leave the constraint.",
+              {},
+              Claims{1, false, false, {}},
+              "constraints and constant masses"};
     e.takes = Takes::only<Mechanical, Constraint>();
     e.parts.set(SystemCondition{hasConstraintsAndConstantMasses});
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
