@@ -321,9 +321,13 @@ private:
             (value > 0 ? low : high) = alpha;
             double next = alpha - value / (r->value * h);
             if (!(next > low && next < high)) next = (low + high) / 2;
-            if (!(std::abs(next - alpha) > 2 * unitRoundOff * std::max(1e-3, std::abs(alpha)))) {
+            const double tiny = 2 * unitRoundOff * std::max(1e-3, std::abs(alpha));
+            if (!(std::abs(next - alpha) > tiny)) {
+                // Newton's method may come from one side alone.
+                const bool isInside = value > 0 ? alpha < high - 2 * tiny : alpha > low + 2 * tiny;
+                if (isInside || (hasClosed && hasOpened)) return alpha;
                 if (!hasClosed) break;
-                if (hasOpened || low == 0) return alpha;
+                if (low == 0) return alpha;
                 // Open there on the dense output alone.
                 high = low;
                 low = low > 1e-6 ? low / 2 : 0;
