@@ -244,9 +244,10 @@ std::optional<double> orderOf(const Trial& trial) {
         if (error < lowest) break;
         h.push_back(-std::log(steps));
         e.push_back(std::log(error));
-        const bool isClear =
-            h.size() >= points && error < enough && std::abs(slope(finest(h), finest(e)) - claimed) < 0.15;
-        if (isClear || error < 1e-10) break;
+        const double off = h.size() >= points ? std::abs(slope(finest(h), finest(e)) - claimed) : 0;
+        const bool isClear = h.size() >= points && error < enough && off < 0.15;
+        // Where the error has just changed its sign the slope is not settled yet.
+        if (isClear || (error < 1e-10 && off < half)) break;
     }
     if (h.size() < 3) return {};
     const double order = slope(finest(h), finest(e));
