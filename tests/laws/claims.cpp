@@ -244,13 +244,19 @@ std::optional<double> orderOf(const Trial& trial) {
         if (error < lowest) break;
         h.push_back(-std::log(steps));
         e.push_back(std::log(error));
-        const double off = h.size() >= points ? std::abs(slope(finest(h), finest(e)) - claimed) : 0;
-        const bool isClear = h.size() >= points && error < enough && off < 0.15;
-        // Where the error has just changed its sign the slope is not settled yet.
-        if (isClear || (error < 1e-10 && off < half)) break;
+        const bool isClear =
+            h.size() >= points && error < enough && std::abs(slope(finest(h), finest(e)) - claimed) < 0.15;
+        if (isClear || error < 1e-10) break;
     }
     if (h.size() < 3) return {};
-    const double order = slope(finest(h), finest(e));
+    double order = slope(finest(h), finest(e));
+    // Where an error changes its sign it dips below its neighbours, and says nothing of the order.
+    for (std::size_t k = h.size() - 1; order < claimed - half && k > 0 && h.size() > points; --k)
+        if ((e[k] - e[k - 1]) / (h[k] - h[k - 1]) > claimed + 2) {
+            h.erase(h.begin() + static_cast<std::ptrdiff_t>(k));
+            e.erase(e.begin() + static_cast<std::ptrdiff_t>(k));
+            order = slope(finest(h), finest(e));
+        }
     // One or two steps are hardly small: they may show an order, but do not refute it.
     const bool isCoarse = -finest(h).front() < std::log(4);
     return isCoarse && order < claimed - half ? std::nullopt : std::optional(order);
