@@ -13,21 +13,6 @@
 namespace extremal::mechanism_test {
 namespace {
 
-/// By a code that sees the equations with constraints differentiated twice: another route to the same motion.
-State byRungeKutta(const Mechanical& of, double end) {
-    const BaselineEntry& entry = *findBaseline("fehlberg78");
-    BaselineOptions options;
-    options.tolerance = 1e-14;
-    options.start = of.start;
-    options.settings.type = "fehlberg78";
-    const auto integrator = entry.make(of.system, options);
-    State s = of.start;
-    integrator->begin(s);
-    while (s.t < end)
-        if (integrator->advance(s, end).outcome != Outcome::converged) qFatal("fehlberg78 failed");
-    return s;
-}
-
 Mechanical named(const QString& name) {
     return name == "spherical pendulum" ? sphericalPendulum()
            : name == "double pendulum"  ? doublePendulum()

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <QtGlobal>
 
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "engine/baseline/catalog.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/mechanism/mechanism_start.hpp"
@@ -108,6 +110,20 @@ inline Ending run(const Mechanical& of, const Discretization& scheme, double end
 }
 inline Ending run(const Mechanical& of, const std::string& scheme, double end, int steps) {
     return run(of, *namedScheme(scheme), end, steps);
+}
+
+/// The motion by a code that sees the equations with constraints differentiated twice: another route.
+inline State byRungeKutta(const Mechanical& of, double end) {
+    BaselineOptions options;
+    options.tolerance = 1e-14;
+    options.start = of.start;
+    options.settings.type = "fehlberg78";
+    const auto integrator = findBaseline("fehlberg78")->make(of.system, options);
+    State s = of.start;
+    integrator->begin(s);
+    while (s.t < end)
+        if (integrator->advance(s, end).outcome != Outcome::converged) qFatal("fehlberg78 failed");
+    return s;
 }
 
 /// Distances of q and of p.

@@ -13,6 +13,7 @@
 namespace extremal::rolling_test {
 namespace {
 
+using mechanism_test::byRungeKutta;
 using mechanism_test::Distance;
 using mechanism_test::distance;
 using mechanism_test::Ending;
@@ -49,19 +50,6 @@ Mechanical bladeOnBowl() {
                               {"constraints", Value::Object{{"bowl", "z - (x^2+y^2)/3"}}},
                               {"forces", Value::Object{{"phi", "-0.2*phi_t + 0.3*cos(t)"}}}}),
                    {0.6, 0, 0.12, 0.4}, {0.5 * std::cos(0.4), 0.5 * std::sin(0.4), 0, 0.9});
-}
-
-State byRungeKutta(const Mechanical& of, double end) {
-    BaselineOptions options;
-    options.tolerance = 1e-14;
-    options.start = of.start;
-    options.settings.type = "fehlberg78";
-    const auto integrator = findBaseline("fehlberg78")->make(of.system, options);
-    State s = of.start;
-    integrator->begin(s);
-    while (s.t < end)
-        if (integrator->advance(s, end).outcome != Outcome::converged) qFatal("fehlberg78 failed");
-    return s;
 }
 
 Mechanical named(const QString& name) {
