@@ -10,6 +10,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/mechanism/mechanism.hpp"
+#include "engine/mechanism/own_copy.hpp"
 #include "engine/model/parts/wall.hpp"
 
 namespace extremal {
@@ -50,7 +51,7 @@ public:
         byTime_.resize(n);
         byPlace_.resize(n * d);
         rhythm_.resize(n);
-        isGrazed_.assign(n, false);
+        isGrazed_.assign(n, 0);
         openUntil_.assign(n, 0);
         samples_.resize(n * static_cast<std::size_t>(places_ + 1));
         velocity_.resize(d);
@@ -61,33 +62,6 @@ public:
         for (std::size_t i = 0; i < values_.size(); ++i)
             if (inner_->quantities()[i].name == "work") work_ = static_cast<int>(i);
     }
-    ImpactStep(const ImpactStep& other)
-        : Integrator(other),
-          mechanism_(other.mechanism_),
-          wall_(other.wall_),
-          inner_(other.inner_->clone()),
-          places_(other.places_),
-          h_(other.h_),
-          fastest_(other.fastest_),
-          work_(other.work_),
-          gaps_(other.gaps_),
-          byPlace_(other.byPlace_),
-          byTime_(other.byTime_),
-          samples_(other.samples_),
-          velocity_(other.velocity_),
-          values_(other.values_),
-          sums_(other.sums_),
-          openUntil_(other.openUntil_),
-          isGrazed_(other.isGrazed_),
-          rhythm_(other.rhythm_),
-          impacts_(other.impacts_),
-          before_(other.before_),
-          at_(other.at_),
-          trial_(other.trial_) {
-        for (const Piece& piece : other.pieces_)
-            pieces_.push_back({piece.from, piece.to, piece.step->clone()});
-    }
-
     double stepSize() const override { return h_; }
     void setStep(double h) override {
         h_ = h;
@@ -108,10 +82,10 @@ public:
         impacts_.clear();
         std::fill(openUntil_.begin(), openUntil_.end(), 0.0);
         before_ = state;
-        findGaps(state.t, state.x.data());
+        const bool goesIntoWall = fastestApproach(state) >= 0;
         for (int k = 0; k < wall_.count(); ++k)
             if (gap(k) > roundOff(k, state.x.data())) isGrazed_[static_cast<std::size_t>(k)] = false;
-        if (mustStrike(state)) return advanceWithImpacts(state, until, StepReport{});
+        if (goesIntoWall) return advanceWithImpacts(state, until, StepReport{});
         StepReport report = inner_->advance(state, until);
         if (report.outcome != Outcome::converged || (!firstCrossing(before_, h_) && !isInside(state)))
             return report;
@@ -143,16 +117,7 @@ public:
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<ImpactStep>(*this); }
     bool checkpoint(Archive& archive) override {
-        for (Rhythm& rhythm : rhythm_) {
-            for (double& t : rhythm.last) archive(t);
-            archive(rhythm.known);
-        }
-        for (std::size_t k = 0; k < isGrazed_.size(); ++k) {
-            bool isGrazed = isGrazed_[k];
-            archive(isGrazed);
-            isGrazed_[k] = isGrazed;
-        }
-        archive(fastest_);
+        archive(rhythm_, isGrazed_, fastest_);
         return inner_->checkpoint(archive);
     }
 
@@ -160,7 +125,7 @@ private:
     /// A part of the last step between impacts, as parts of the step.
     struct Piece {
         double from, to;
-        std::unique_ptr<Integrator> step;
+        OwnCopy<Integrator> step;
     };
     /// A gap that closes: within (from, to] of the step last taken.
     struct Crossing {
@@ -179,12 +144,8 @@ private:
     double gap(int wall) const { return gaps_[static_cast<std::size_t>(wall)]; }
     const double* normal(int wall) const { return byPlace_.data() + wall * dimension(); }
     /// A depth that rounding makes, where findGaps() was called last, at q.
-    double roundOff(int wall, const double* q) const { return 1e-12 * terms(wall, q); }
-    double terms(int wall, const double* q) const {
-        double sum = 0;
-        for (int i = 0; i < dimension(); ++i) sum += std::abs(normal(wall)[i] * q[i]);
-        return sum;
-    }
+    double roundOff(int wall, const double* q) const { return Wall::rounding * terms(wall, q); }
+    double terms(int wall, const double* q) const { return Wall::terms(normal(wall), q, dimension()); }
     /// d gap / dt at a state, where findGaps() was called last.
     struct Speed {
         double value = 0;
@@ -205,8 +166,7 @@ private:
     }
     double ahead() const { return h_ < 0 ? -1 : 1; }
 
-    /// Whether a state is on a wall and goes into it.
-    bool mustStrike(const State& s) { return fastestApproach(s) >= 0; }
+    /// The wall that a state is on and goes into, fastest; -1: it goes into none of them. Finds the gaps.
     int fastestApproach(const State& s) {
         findGaps(s.t, s.x.data());
         int found = -1;
@@ -370,7 +330,7 @@ private:
             inner_->measure(end, values_.data());
             for (std::size_t i = 0; i < values_.size(); ++i) sums_[i] += values_[i];
         }
-        pieces_.push_back({from, to, inner_->clone()});
+        pieces_.push_back({from, to, inner_});
     }
 
     /// From `state` to the node at `until` through all impacts before it.
@@ -440,7 +400,7 @@ private:
 
     Mechanism mechanism_;
     Wall wall_;
-    std::unique_ptr<Integrator> inner_;
+    OwnCopy<Integrator> inner_;
     int places_;
     double h_ = 0;
     double fastest_ = 0;  ///< the largest |v_i| that a wall has seen
@@ -448,7 +408,7 @@ private:
     std::vector<double> gaps_, byPlace_, byTime_, samples_, velocity_, values_, sums_;
     std::vector<double>
         openUntil_;  ///< part of the step at hand up to which the scheme's own steps stay outside
-    std::vector<bool> isGrazed_;  ///< touched without an impact, and not left since
+    std::vector<char> isGrazed_;  ///< touched without an impact, and not left since
     std::vector<Rhythm> rhythm_;
     std::vector<Impact> impacts_;  ///< of the last step
     std::vector<Piece> pieces_;    ///< of the last step, if it had impacts

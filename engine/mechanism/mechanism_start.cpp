@@ -90,18 +90,16 @@ void putOnConstraints(const System& system, State& state, bool movesFar) {
 }
 
 void requireOutsideWalls(const System& system, const State& state) {
-    constexpr double rounding = 1e-12;
     const Wall* const wall = system.parts.find<Wall>();
     if (!wall) return;
     const auto n = static_cast<std::size_t>(wall->count()), d = static_cast<std::size_t>(system.dimension());
     std::vector<double> gap(n), byPlace(n * d), byTime(n);
     wall->first(wall->model.get(), state.t, state.x.data(), gap.data(), byPlace.data(), byTime.data());
     for (std::size_t k = 0; k < n; ++k) {
-        double terms = 0;
-        for (std::size_t i = 0; i < d; ++i) terms += std::abs(byPlace[k * d + i] * state.x[i]);
+        const double terms = Wall::terms(byPlace.data() + k * d, state.x.data(), system.dimension());
         if (!std::isfinite(gap[k]))
             throw InvalidScene("/model/walls/" + wall->names[k], "is not finite at the initial data");
-        if (gap[k] < -rounding * terms)
+        if (gap[k] < -Wall::rounding * terms)
             throw InvalidScene(
                 "/initial/q",
                 "is inside the wall " + wall->names[k] + ": its gap is " + formatNumber(gap[k], 3) + " there",

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,15 @@ struct Wall {
     int count() const { return static_cast<int>(names.size()); }
     bool isElastic() const {
         return std::all_of(restitution.begin(), restitution.end(), [](double e) { return e == 1; });
+    }
+
+    /// A gap above -rounding * terms() is one of a body that touches the wall.
+    static constexpr double rounding = 1e-12;
+    /// sum_i |gap_qi q_i|: the size of the numbers that a gap is the sum of.
+    static double terms(const double* normal, const double* q, int dimension) {
+        double sum = 0;
+        for (int i = 0; i < dimension; ++i) sum += std::abs(normal[i] * q[i]);
+        return sum;
     }
 
     /// gap (count), gap_q (count x d) and gap_t (count).
