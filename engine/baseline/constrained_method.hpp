@@ -18,6 +18,12 @@
 
 namespace extremal {
 
+/// What these methods are for, and what they take besides.
+inline SystemCondition needsConstraints() {
+    return {[](const System& system) { return system.parts.find<Constraint>() != nullptr; }};
+}
+inline Takes constrainedProblems() { return Takes::only<Mechanical, Constraint, Force>(); }
+
 class ConstrainedMethod : public Integrator {
 public:
     using Vector = Eigen::VectorXd;

@@ -5,9 +5,12 @@
 /// drifts off, by the order of the method.
 #pragma once
 
-#include "engine/model/system.hpp"
+#include "engine/model/mechanisms.hpp"
 
 namespace extremal {
+
+/// The parts that are in that flow.
+inline Takes drivenProblems() { return Takes::only<Mechanical, Constraint, Force, Rolling>(); }
 
 /// The mechanics of a system with that flow; those of the system itself where it has a Lagrangian alone. Its
 /// other calls are of the Lagrangian, and it is not separable.

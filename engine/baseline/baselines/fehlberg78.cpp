@@ -2,7 +2,6 @@
 /// Runge-Kutta-Fehlberg 7(8) of Boost.odeint.
 #include "engine/baseline/adaptive.hpp"
 #include "engine/mechanism/driven_flow.hpp"
-#include "engine/model/mechanisms.hpp"
 
 namespace extremal::baselines {
 
@@ -16,7 +15,7 @@ BaselineEntry fehlberg78() {
               Claims{8, false, false, {}},
               "smooth forces"};
     e.grid = TimeGrid::landing;
-    e.takes = Takes::only<Mechanical, Constraint, Force, Rolling>();
+    e.takes = drivenProblems();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Adaptive<Stepper>>(drivenMechanics(system), options);
     };

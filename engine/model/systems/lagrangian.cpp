@@ -60,6 +60,13 @@ void checkLagrangian(const Settings& settings, const System& system, const State
     if (fault) throw InvalidScene("/lagrangian", *fault);
 }
 
+FieldInfo optionalField(const char* key, FieldType type, const char* description) {
+    FieldInfo field = textField(key, "", nullptr, description);
+    field.type = type;
+    field.isOptional = true;
+    return field;
+}
+
 std::vector<FieldInfo> lagrangianFields() {
     FieldInfo coordinates;
     coordinates.key = coordinates.title = "coordinates";
@@ -78,42 +85,30 @@ std::vector<FieldInfo> lagrangianFields() {
     lagrangian.type = FieldType::terms;
     lagrangian.title = "Lagrangian";
     lagrangian.example = "m/2*l^2*theta_t^2 + m*g*l*cos(theta)";
-    FieldInfo constraints =
-        textField("constraints", "", nullptr,
-                  "Relations of coordinates and t that hold at all times, by name: each formula is 0 "
-                  "(\"x^2+y^2-l^2\").");
-    constraints.type = FieldType::terms;
-    constraints.isOptional = true;
-    FieldInfo forces = textField(
-        "forces", "", nullptr,
-        "Forces that no Lagrangian has, by coordinate, as formulas in coordinates, velocities and t.");
-    forces.type = FieldType::terms;
-    forces.isOptional = true;
-    FieldInfo dissipation =
-        textField("dissipation", "", nullptr,
-                  "Rayleigh's function D, a formula in velocities (\"c/2*x_t^2\"): adds the force -dD/dv.");
-    dissipation.isOptional = true;
-    FieldInfo rolling = textField(
-        "rolling", "", nullptr,
-        "Conditions on velocities, by name, for what rolls or slides along a blade: each formula is "
-        "linear in velocities and 0 (\"x_t*sin(phi)-y_t*cos(phi)\").");
-    rolling.type = FieldType::terms;
-    rolling.isOptional = true;
-    FieldInfo controls;
-    controls.key = controls.title = "controls";
-    controls.type = FieldType::json;
-    controls.isOptional = true;
-    controls.description =
-        "Functions of time by name, for use in the other formulas: a formula in t and parameters, or "
-        "{\"table\": [[t, value], ...], \"interpolation\": \"linear\" or \"cubic\"}.";
-    FieldInfo walls;
-    walls.key = walls.title = "walls";
-    walls.type = FieldType::json;
-    walls.isOptional = true;
-    walls.description =
-        "Walls by name: a formula in coordinates and t that stays positive (\"y\"), or "
-        "{\"gap\": formula, \"restitution\": 0 to 1}.";
-    return {coordinates, parameters, lagrangian, constraints, forces, dissipation, controls, rolling, walls};
+    return {
+        coordinates,
+        parameters,
+        lagrangian,
+        optionalField("constraints", FieldType::terms,
+                      "Relations of coordinates and t that hold at all times, by name: each formula is 0 "
+                      "(\"x^2+y^2-l^2\")."),
+        optionalField(
+            "forces", FieldType::terms,
+            "Forces that no Lagrangian has, by coordinate, as formulas in coordinates, velocities and t."),
+        optionalField(
+            "dissipation", FieldType::text,
+            "Rayleigh's function D, a formula in velocities (\"c/2*x_t^2\"): adds the force -dD/dv."),
+        optionalField(
+            "controls", FieldType::json,
+            "Functions of time by name, for use in the other formulas: a formula in t and parameters, or "
+            "{\"table\": [[t, value], ...], \"interpolation\": \"linear\" or \"cubic\"}."),
+        optionalField(
+            "rolling", FieldType::terms,
+            "Conditions on velocities, by name, for what rolls or slides along a blade: each formula is "
+            "linear in velocities and 0 (\"x_t*sin(phi)-y_t*cos(phi)\")."),
+        optionalField("walls", FieldType::json,
+                      "Walls by name: a formula in coordinates and t that stays positive (\"y\"), or "
+                      "{\"gap\": formula, \"restitution\": 0 to 1}.")};
 }
 
 }  // namespace

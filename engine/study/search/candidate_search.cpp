@@ -58,7 +58,7 @@ double CandidateSearch::excessOf(const PointResult& result, std::span<const doub
     constexpr double least = 1e-300;
     double most = -HUGE_VAL;
     for (std::size_t i = 0; i < wishes.size(); ++i) {
-        const double value = result.errors.empty() ? result.error : result.errors[i];
+        const double value = result.errorIn(i);
         if (!result.isDone() || !std::isfinite(value)) return HUGE_VAL;
         most = std::max(most, std::log(std::max(value, least) / wishes[i]));
     }
@@ -69,7 +69,7 @@ double CandidateSearch::excessOf(const PointResult& result, std::span<const doub
 bool CandidateSearch::isSaturated(const PointResult& result) const {
     constexpr double part = 0.2;
     for (std::size_t i = 0; i < metrics_.size(); ++i) {
-        const double value = result.errors.empty() ? result.error : result.errors[i];
+        const double value = result.errorIn(i);
         if (value > part * metrics_[i].size()) return true;
     }
     return false;
@@ -134,7 +134,7 @@ RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& sche
     run.isSaturated = run.excess > 0 && isSaturated(result);
     run.isAtFloor = result.cause == Outcome::refused;
     for (std::size_t i = 0; i < wishes.size() && run.excess > 0 && result.isDone(); ++i) {
-        const double value = result.errors.empty() ? result.error : result.errors[i];
+        const double value = result.errorIn(i);
         run.isAtFloor = run.isAtFloor || (value > wishes[i] && value <= floorOf(i));
     }
     return run;

@@ -38,7 +38,9 @@ struct PointResult {
     double failedAt = unknown;
     double error = unknown;           ///< the metric; of a failed run up to its last node
     std::vector<double> errors = {};  ///< of joint wishes, all metrics, the one above first; else empty
-    double step = 0, tolerance = 0;   ///< where it was measured: of the point, or what a search found
+    /// The error in a metric of a search, which may be the only one.
+    double errorIn(std::size_t metric) const { return errors.empty() ? error : errors[metric]; }
+    double step = 0, tolerance = 0;  ///< where it was measured: of the point, or what a search found
     Reduction reduction = {};
     double unreducedWork = unknown;  ///< of a reduced scheme: what the error takes of the scheme as it is
     /// Of a search that was given up: the evaluations that the wanted error takes, over those of the cheapest

@@ -16,9 +16,8 @@ BaselineEntry baumgarte() {
                   "Of g'' + 2 alpha g' + alpha^2 g = 0; h alpha is to stay below 1.")},
         Claims{4, false, false, {}},
         "constraints"};
-    e.takes = Takes::only<Mechanical, Constraint, Force>();
-    e.parts.set(
-        SystemCondition{[](const System& system) { return system.parts.find<Constraint>() != nullptr; }});
+    e.takes = constrainedProblems();
+    e.parts.set(needsConstraints());
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         const double alpha = options.settings.number("alpha");
         return std::make_unique<KuttaOnConstraints>(system, options,

@@ -148,9 +148,8 @@ BaselineEntry ggl_bdf2() {
               {},
               Claims{2, false, false, {}, false},
               "constraints"};
-    e.takes = Takes::only<Mechanical, Constraint, Force>();
-    e.parts.set(
-        SystemCondition{[](const System& system) { return system.parts.find<Constraint>() != nullptr; }});
+    e.takes = constrainedProblems();
+    e.parts.set(needsConstraints());
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<GglBdf2>(system, options.step);
     };

@@ -14,9 +14,8 @@ BaselineEntry rk4_projected() {
               {},
               Claims{4, false, false, {}},
               "constraints"};
-    e.takes = Takes::only<Mechanical, Constraint, Force>();
-    e.parts.set(
-        SystemCondition{[](const System& system) { return system.parts.find<Constraint>() != nullptr; }});
+    e.takes = constrainedProblems();
+    e.parts.set(needsConstraints());
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<KuttaOnConstraints>(system, options, KuttaOnConstraints::Remedy{0, true});
     };

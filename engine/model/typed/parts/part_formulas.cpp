@@ -72,6 +72,11 @@ const Value::Object& formulasUnder(const Settings& settings, const char* key) {
     return value && value->isObject() ? value->asObject() : empty;
 }
 
+const Value* gapOf(const Value& wall) {
+    const Value* const gap = wall.isObject() ? wall.find("gap") : &wall;
+    return gap && gap->isString() ? gap : nullptr;
+}
+
 void requireNoRateOfTime(const Formula& own, const std::string& pointer) {
     const ResolvedFormula resolved = resolve(own);
     for (std::size_t n = 0; n < resolved.symbol.size(); ++n)

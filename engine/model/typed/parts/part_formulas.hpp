@@ -95,6 +95,9 @@ std::shared_ptr<const SymbolicLagrangian> derivativesOf(const Formula& formula, 
 /// The formulas by name under a key of the model; empty where there are none.
 const Value::Object& formulasUnder(const Settings& settings, const char* key);
 
+/// The gap of a wall, which is typed alone or as {"gap", "restitution"}; null: it has none.
+const Value* gapOf(const Value& wall);
+
 /// Time has no rate among the names.
 void requireNoRateOfTime(const Formula& own, const std::string& pointer);
 

@@ -209,8 +209,8 @@ std::optional<Wall> wallOf(const Settings& settings, const Formula& formula) {
     Wall made;
     for (const auto& [name, wall] : typed->asObject()) {
         const std::string pointer = "/walls/" + name;
-        const Value* const gap = wall.isObject() ? wall.find("gap") : &wall;
-        if (!gap || !gap->isString())
+        const Value* const gap = gapOf(wall);
+        if (!gap)
             throw InvalidScene(pointer, "needs its gap, a formula that is positive where motion is possible",
                                R"({"gap": "y", "restitution": 0.8}, or "y" for an elastic wall)");
         if (wall.isObject())

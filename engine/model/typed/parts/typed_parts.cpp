@@ -34,10 +34,8 @@ bool isUntouched(const Settings& settings, const Formula& formula, int coordinat
         if (moves(own, coordinate)) return false;
     }
     if (const Value* const walls = settings.find("walls"); walls && walls->isObject())
-        for (const auto& [key, wall] : walls->asObject()) {
-            const Value* const gap = wall.isObject() ? wall.find("gap") : &wall;
-            if (gap && gap->isString()) texts.push_back({gap->asString(), true});
-        }
+        for (const auto& [key, wall] : walls->asObject())
+            if (const Value* const gap = gapOf(wall)) texts.push_back({gap->asString(), true});
     if (dissipation && dissipation->isString()) texts.push_back({dissipation->asString(), false});
     for (const auto& [key, text] : formulasUnder(settings, "forces"))
         if (key == name) return false;
