@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/baseline/leapfrog_on_constraints.hpp"
+#include "engine/solve/corrections.hpp"
 
 #include <Eigen/LU>
 
@@ -29,7 +30,8 @@ Outcome LeapfrogOnConstraints::step() {
     mechanism_.conditions(start(), q0_.data(), value_, before_, byTime_);
     half_ = p0_ + h() / 2 * force_;
     ++report_.cost.evaluations;
-    if (!findPlace(end())) return Outcome::diverged;
+    const Outcome found = findPlace(end());
+    if (found != Outcome::converged) return found;
     half_ += h() / 2 * before_.transpose() * lambda_;
     L.force(L.model.get(), end(), q1_.data(), force_.data());
     ++report_.cost.evaluations;
@@ -40,27 +42,21 @@ Outcome LeapfrogOnConstraints::step() {
 }
 
 /// lambda and q_1 with g(q_1) = 0, from the lambda of the step before.
-bool LeapfrogOnConstraints::findPlace(double t) {
-    constexpr int mostIterations = 50;
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+Outcome LeapfrogOnConstraints::findPlace(double t) {
     free_ = q0_ + h() * half_.cwiseQuotient(masses_);
-    double last = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < mostIterations; ++iteration) {
+    const CorrectionLimits limits{.roundOff = 1e-12};
+    return solveByCorrections(limits, stop(), report_, [&](int, double) {
         q1_ = free_ + h() * h() / 2 * (before_.transpose() * lambda_).cwiseQuotient(masses_);
         mechanism_.conditions(t, q1_.data(), value_, after_, byTime_);
         matrix_.noalias() =
             h() * h() / 2 * after_ * masses_.cwiseInverse().asDiagonal() * before_.transpose();
         const Vector change = matrix_.partialPivLu().solve(value_);
-        if (!change.allFinite()) return false;
+        if (!change.allFinite()) return Correction{.outcome = Outcome::diverged};
         lambda_ -= change;
-        ++report_.cost.iterations;
-        const double size =
-            (h() * h() / 2 * (before_.transpose() * change).cwiseQuotient(masses_)).cwiseAbs().maxCoeff();
-        const double scale = q1_.cwiseAbs().maxCoeff();
-        if (size <= epsilon * scale || (size >= last / 4 && size <= 1e-12 * scale)) return true;
-        last = size;
-    }
-    return false;
+        return Correction{
+            (h() * h() / 2 * (before_.transpose() * change).cwiseQuotient(masses_)).cwiseAbs().maxCoeff(),
+            q1_.cwiseAbs().maxCoeff()};
+    });
 }
 
 }  // namespace extremal

@@ -31,7 +31,7 @@ public:
 
 private:
     Outcome step() override;
-    bool findPlace(double t);
+    Outcome findPlace(double t);
 
     using Rows = Mechanism::Rows;
     End kind_;

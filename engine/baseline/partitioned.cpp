@@ -4,10 +4,11 @@
 #include <limits>
 #include <utility>
 
-#include "engine/baseline/parts.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_method.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/integrator/shared_force.hpp"
+#include "engine/solve/corrections.hpp"
 
 namespace extremal {
 namespace {
@@ -190,32 +191,18 @@ private:
     void implicitMap(bool isKick, double t, double s) {
         Vector& x = isKick ? this->p1_ : this->q1_;
         start_ = x;
-        double last = std::numeric_limits<double>::infinity();
-        constexpr double epsilon = std::numeric_limits<double>::epsilon();
         CoordinateWatch watch;
-        for (int iteration = 0; iteration < 200; ++iteration) {
-            if (this->stop().stop_requested()) {
-                this->report_.outcome = Outcome::stopped;
-                return;
-            }
+        const CorrectionLimits limits{.most = 200, .roundOff = 100 * CorrectionLimits::epsilon, .stall = 1};
+        this->report_.outcome = solveByCorrections(limits, this->stop(), this->report_, [&](int, double) {
             this->flow(t, this->q1_, this->p1_, dq_, dp_);
-            if (this->report_.outcome != Outcome::converged) return;
-            ++this->report_.cost.iterations;
+            if (this->report_.outcome != Outcome::converged)
+                return Correction{.outcome = this->report_.outcome};
             change_ = start_ + s * (isKick ? dp_ : dq_) - x;
             x += change_;
             for (int k = 0; k < this->d(); ++k) watch.add(change_(k), x(k) - start_(k), start_(k));
-            const bool isSettled = watch.isSettled(stallOfSweeps);
-            const double size = change_.cwiseAbs().maxCoeff(), scale = x.cwiseAbs().maxCoeff();
-            this->report_.residual = scale > 0 ? size / scale : size;
-            if (!(size < std::numeric_limits<double>::infinity())) {
-                this->report_.outcome = Outcome::notFinite;
-                return;
-            }
-            if ((size <= epsilon * scale || (size < 100 * epsilon * scale && size >= last)) && isSettled)
-                return;
-            last = size;
-        }
-        this->report_.outcome = Outcome::diverged;
+            return Correction{change_.cwiseAbs().maxCoeff(), x.cwiseAbs().maxCoeff(),
+                              watch.isSettled(stallOfSweeps)};
+        });
     }
 
     std::vector<PartitionedStage> stages_;

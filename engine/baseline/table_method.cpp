@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/baseline/coordinate_watch.hpp"
+#include "engine/solve/corrections.hpp"
 
 namespace extremal {
 namespace {
@@ -130,75 +131,49 @@ private:
 
     /// Each stage with the latest of the others.
     bool iterate(double t) {
-        double last = std::numeric_limits<double>::infinity();
         CoordinateWatch watch;
-        for (int iteration = 0; iteration < 100; ++iteration) {
-            if (isStopped()) return false;
+        const CorrectionLimits limits{
+            .most = 100, .roundOff = 1e3 * CorrectionLimits::epsilon, .stall = 1, .slow = 0.7};
+        this->report_.outcome = solveByCorrections(limits, this->stop(), this->report_, [&](int, double) {
             double size = 0;
             for (Eigen::Index i = 0; i < table_.stages(); ++i) {
                 stateAt(i, table_.stages());
-                if (!evaluate(t, i)) return false;
+                if (!evaluate(t, i)) return Correction{.outcome = this->report_.outcome};
                 size = std::max(
                     {size, (dq_ - V_.col(i)).cwiseAbs().maxCoeff(), (dp_ - F_.col(i)).cwiseAbs().maxCoeff()});
                 watchChange(watch, i, dq_ - V_.col(i), dp_ - F_.col(i));
                 V_.col(i) = dq_;
                 F_.col(i) = dp_;
             }
-            ++this->report_.cost.iterations;
-            this->report_.residual = size / scale();
-            if (!(size < std::numeric_limits<double>::infinity())) return false;
-            const bool isSettled = watch.isSettled(stallOfSweeps),
-                       isSmall =
-                           size <= epsilon * scale() || (size < 1e3 * epsilon * scale() && size >= last);
-            if (isSmall && isSettled) return true;
-            if (iteration > 3 && size > 0.7 * last && !isSmall) return false;
-            last = size;
-        }
-        return false;
-    }
-    bool isStopped() {
-        if (!this->stop().stop_requested()) return false;
-        this->report_.outcome = Outcome::stopped;
-        return true;
+            return Correction{size, scale(), watch.isSettled(stallOfSweeps)};
+        });
+        return this->report_.outcome == Outcome::converged;
     }
 
     /// Unknowns (V_1, F_1, V_2, ..).
     bool newton(double t) {
         const int d = this->d();
         Eigen::VectorXd residual(2 * d * table_.stages());
-        double last = std::numeric_limits<double>::infinity();
         CoordinateWatch watch;
-        for (int iteration = 0; iteration < 50; ++iteration) {
-            if (isStopped()) return false;
-            if (!assemble(t)) return false;
+        const CorrectionLimits limits;
+        this->report_.outcome = solveByCorrections(limits, this->stop(), this->report_, [&](int, double) {
+            if (!assemble(t)) return Correction{.outcome = this->report_.outcome};
             for (Eigen::Index i = 0; i < table_.stages(); ++i) {
                 stateAt(i, table_.stages());
-                if (!evaluate(t, i)) return false;
+                if (!evaluate(t, i)) return Correction{.outcome = this->report_.outcome};
                 residual.segment(2 * d * i, d) = dq_ - V_.col(i);
                 residual.segment(2 * d * i + d, d) = dp_ - F_.col(i);
             }
             residual = lu_.solve(residual);
             ++this->report_.cost.linearSolves;
-            ++this->report_.cost.iterations;
             for (Eigen::Index i = 0; i < table_.stages(); ++i) {
                 V_.col(i) += residual.segment(2 * d * i, d);
                 F_.col(i) += residual.segment(2 * d * i + d, d);
                 watchChange(watch, i, residual.segment(2 * d * i, d), residual.segment(2 * d * i + d, d));
             }
-            const bool isSettled = watch.isSettled();
-            const double size = residual.cwiseAbs().maxCoeff();
-            this->report_.residual = size / scale();
-            if (!(size < std::numeric_limits<double>::infinity())) {
-                this->report_.outcome = Outcome::notFinite;
-                return false;
-            }
-            if ((size <= epsilon * scale() || (size < 1e4 * epsilon * scale() && size >= last / 4)) &&
-                isSettled)
-                return true;
-            last = size;
-        }
-        this->report_.outcome = Outcome::diverged;
-        return false;
+            return Correction{residual.cwiseAbs().maxCoeff(), scale(), watch.isSettled()};
+        });
+        return this->report_.outcome == Outcome::converged;
     }
 
     /// I - h J a at the stages as they are, and J beside it.

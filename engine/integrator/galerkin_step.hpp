@@ -130,8 +130,6 @@ private:
 
     using Accumulator = std::conditional_t<std::is_same_v<T, double>, long double, T>;
 
-    enum class Attempt { solved, failed, notFinite, singular, lost, stopped };
-
     /// The functions of a table, node by node and function by function. The equations are the gradient of one
     /// sum of numbers, S = sum_i w_i L(q_0 + sum_a phi_a(c_i) Y_a, sum_a phi_a'(c_i) Y_a): test and trial
     /// functions, and the weights of L_q and L_v, are the same to the last bit. Rounded differently (b_i h
@@ -197,14 +195,14 @@ private:
     CorrectionSize<T> measured() const;
     bool retreat(const T& t);
     bool shortenIntoDomain(const T& t);
-    Attempt iterate(const T& t, StartingValue start, const std::stop_token& stop);
-    Attempt newton(const T& t, StartingValue start, const std::stop_token& stop);
-    Attempt fromElsewhere(const T& t, const std::stop_token& stop);
-    Attempt fromShorterSteps(const T& t, const std::stop_token& stop);
-    Attempt anyRoot(const T& t, const std::stop_token& stop);
+    Outcome iterate(const T& t, StartingValue start, const std::stop_token& stop);
+    Outcome newton(const T& t, StartingValue start, const std::stop_token& stop);
+    Outcome fromElsewhere(const T& t, const std::stop_token& stop);
+    Outcome fromShorterSteps(const T& t, const std::stop_token& stop);
+    Outcome anyRoot(const T& t, const std::stop_token& stop);
     void rememberNodes();
-    Attempt fixedPoint(const T& t, const std::stop_token& stop);
-    Attempt solve(const T& t, const std::stop_token& stop);
+    Outcome fixedPoint(const T& t, const std::stop_token& stop);
+    Outcome solve(const T& t, const std::stop_token& stop);
     void resume(const T* q, const T* p);
     void add(T* q, T* p);
     bool linearise(const T& t);

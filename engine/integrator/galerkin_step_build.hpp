@@ -157,28 +157,10 @@ StepReport GalerkinStep<T, D>::advance(const T& t, T* q, T* p, const std::stop_t
     report_ = StepReport{};
     report_.step = static_cast<double>(h_);
     resume(q, p);
-    const Attempt result = solve(t, stop);
-    switch (result) {
-        case Attempt::solved:
-            break;
-        case Attempt::failed:
-            report_.outcome = Outcome::diverged;
-            break;
-        case Attempt::notFinite:
-            report_.outcome = Outcome::notFinite;
-            break;
-        case Attempt::singular:
-            report_.outcome = Outcome::singular;
-            break;
-        case Attempt::lost:
-            report_.outcome = Outcome::lost;
-            break;
-        case Attempt::stopped:
-            report_.outcome = Outcome::stopped;
-            break;
-    }
-    hasPrevious_ = continues_ && result == Attempt::solved && !isSolvedByFixedPoint_;
-    if (result == Attempt::solved) add(q, p);
+    report_.outcome = solve(t, stop);
+    const bool isSolved = report_.outcome == Outcome::converged;
+    hasPrevious_ = continues_ && isSolved && !isSolvedByFixedPoint_;
+    if (isSolved) add(q, p);
     return report_;
 }
 

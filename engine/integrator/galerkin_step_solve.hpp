@@ -183,26 +183,24 @@ bool GalerkinStep<T, D>::retreat(const T& t) {
 
 /// Newton's method from the starting value in Y. At its end the forces at hand are those of the solution.
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, StartingValue start,
-                                                                 const std::stop_token& stop) {
-    using Verdict = typename NewtonPolicy<T>::Verdict;
+Outcome GalerkinStep<T, D>::iterate(const T& t, StartingValue start, const std::stop_token& stop) {
     const auto limits = NewtonLimits<T>::condensedStep(tolerance_, start == StartingValue::fallback);
     NewtonPolicy<T> policy(limits);
     bool needsJacobian = true;
     placeNodes();
     for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
-        if (stop.stop_requested()) return Attempt::stopped;
+        if (stop.stop_requested()) return Outcome::stopped;
         evaluateGradients(t);
         residual();
         if (iteration > 0 && !R_.allFinite()) {
             hasLeftDomain_ = true;
-            if (!retreat(t)) return Attempt::notFinite;
+            if (!retreat(t)) return Outcome::notFinite;
             // A correction that was cut short says nothing of how the next ones should shrink.
             policy = NewtonPolicy<T>(limits);
             needsJacobian = true;
         }
         if (needsJacobian) {
-            if (!assembleJacobian(t)) return Attempt::singular;
+            if (!assembleJacobian(t)) return Outcome::singular;
             policy.jacobianIsNew();
             needsJacobian = false;
         }
@@ -210,26 +208,23 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Sta
         ++report_.cost.iterations;
         report_.residual = static_cast<double>(size);
         if (iteration == 0) nearness_ = size;
-        const Verdict verdict = policy.judge(size, [&] { return measured(); });
-        if (verdict == Verdict::converged) return Attempt::solved;
-        if (verdict == Verdict::notFinite) return Attempt::notFinite;
-        if (verdict == Verdict::diverged) return Attempt::failed;
+        const NewtonVerdict verdict = policy.judge(size, [&] { return measured(); });
+        if (const auto end = endOf(verdict)) return *end;
         Y_ -= delta_;
         placeNodes();
-        needsJacobian = verdict == Verdict::slow;
+        needsJacobian = verdict == NewtonVerdict::slow;
     }
-    return Attempt::failed;
+    return Outcome::diverged;
 }
 
 /// Newton's method down the ladder of starting values.
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, StartingValue start,
-                                                                const std::stop_token& stop) {
+Outcome GalerkinStep<T, D>::newton(const T& t, StartingValue start, const std::stop_token& stop) {
     for (;;) {
-        if (!startFrom(t, start)) return Attempt::singular;
-        const Attempt result = iterate(t, start, stop);
-        if (result == Attempt::solved) rememberNodes();
-        if (result == Attempt::solved || result == Attempt::stopped || start == StartingValue::fallback)
+        if (!startFrom(t, start)) return Outcome::singular;
+        const Outcome result = iterate(t, start, stop);
+        if (result == Outcome::converged) rememberNodes();
+        if (result == Outcome::converged || result == Outcome::stopped || start == StartingValue::fallback)
             return result;
         start = ladder_.below(start, tables_.front().smoothExtrapolation.size() > 0);
     }
@@ -247,46 +242,37 @@ void GalerkinStep<T, D>::rememberNodes() {
 }
 
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fixedPoint(const T& t, const std::stop_token& stop) {
-    Attempt attempt = Attempt::failed;
+Outcome GalerkinStep<T, D>::fixedPoint(const T& t, const std::stop_token& stop) {
+    Outcome result = Outcome::diverged;
     withFixedPoint([&](auto& solver) {
-        switch (solver.solve(t, q0_.data(), p0_.data(), carryQ_.data(), carryP_.data(), policy_.maxIterations,
-                             stop, report_)) {
-            case FixedPointResult::solved:
-                solver.increments(dq_.data(), dp_.data(), carryQ_.data(), carryP_.data());
-                nearness_ = solver.nearness();
-                attempt = dq_.allFinite() && dp_.allFinite() ? Attempt::solved : Attempt::notFinite;
-                break;
-            case FixedPointResult::stopped:
-                attempt = Attempt::stopped;
-                break;
-            case FixedPointResult::notFinite:
-                attempt = Attempt::notFinite;
-                break;
-            case FixedPointResult::slow:
-                break;
-        }
+        result = solver.solve(t, q0_.data(), p0_.data(), carryQ_.data(), carryP_.data(),
+                              policy_.maxIterations, stop, report_);
+        if (result != Outcome::converged) return;
+        solver.increments(dq_.data(), dp_.data(), carryQ_.data(), carryP_.data());
+        nearness_ = solver.nearness();
+        if (!dq_.allFinite() || !dp_.allFinite()) result = Outcome::notFinite;
     });
-    return attempt;
+    return result;
 }
 
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const std::stop_token& stop) {
+Outcome GalerkinStep<T, D>::solve(const T& t, const std::stop_token& stop) {
     /// A root this far from its starting value, against the increments of the step, may be another one than
     /// that of the motion.
     constexpr double far = 0.25;
     hasLeftDomain_ = false;
-    Attempt result = anyRoot(t, stop);
+    Outcome result = anyRoot(t, stop);
     // A parabola may leave the domain of L, such as velocities below that of light; and with spaces of their
     // own some coordinates have many periods in a step, which no parabola follows.
-    const bool isOutside = result == Attempt::notFinite || result == Attempt::singular,
-               hasNoRoot = isOutside || (result == Attempt::failed && tables_.size() > 1);
+    const bool isOutside = result == Outcome::notFinite || result == Outcome::singular,
+               hasNoRoot = isOutside || (result == Outcome::diverged && tables_.size() > 1);
     if (hasNoRoot && defect_ && startFromMotion(t)) result = iterate(t, StartingValue::fallback, stop);
-    if (result != Attempt::solved && result != Attempt::stopped && defect_ && (isOutside || hasLeftDomain_)) {
-        const Attempt followed = fromShorterSteps(t, stop);
-        return followed == Attempt::solved || followed == Attempt::stopped ? followed : result;
+    if (result != Outcome::converged && result != Outcome::stopped && defect_ &&
+        (isOutside || hasLeftDomain_)) {
+        const Outcome followed = fromShorterSteps(t, stop);
+        return followed == Outcome::converged || followed == Outcome::stopped ? followed : result;
     }
-    if (result != Attempt::solved || !defect_ || !(nearness_ > T(far)) || followsForces(t)) return result;
+    if (result != Outcome::converged || !defect_ || !(nearness_ > T(far)) || followsForces(t)) return result;
     return fromElsewhere(t, stop);
 }
 
@@ -299,53 +285,51 @@ bool GalerkinStep<T, D>::followsForces(const T& t) {
 
 /// Newton's method from starting values that do not continue the last step.
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fromElsewhere(const T& t,
-                                                                       const std::stop_token& stop) {
+Outcome GalerkinStep<T, D>::fromElsewhere(const T& t, const std::stop_token& stop) {
     isSolvedByFixedPoint_ = false;
     withFixedPoint([](auto& solver) { solver.forget(); });
     carryQ_.setZero();
     carryP_.setZero();
     newtonSteps_ = stepsWithNewton;
-    Attempt result = newton(t, StartingValue::fallback, stop);
-    if (result == Attempt::solved && followsForces(t)) return result;
-    if (result == Attempt::stopped) return result;
-    if (!startFromMotion(t)) return Attempt::lost;
+    Outcome result = newton(t, StartingValue::fallback, stop);
+    if (result == Outcome::converged && followsForces(t)) return result;
+    if (result == Outcome::stopped) return result;
+    if (!startFromMotion(t)) return Outcome::lost;
     result = iterate(t, StartingValue::fallback, stop);
-    if (result == Attempt::stopped || (result == Attempt::solved && followsForces(t))) return result;
-    return Attempt::lost;
+    if (result == Outcome::stopped || (result == Outcome::converged && followsForces(t))) return result;
+    return Outcome::lost;
 }
 
 /// The root of short steps, followed to the whole one (solve/step_continuation.hpp).
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fromShorterSteps(const T& t,
-                                                                          const std::stop_token& stop) {
+Outcome GalerkinStep<T, D>::fromShorterSteps(const T& t, const std::stop_token& stop) {
     const T whole = h_, scale = kineticScale_;
     isSolvedByFixedPoint_ = false;
     const bool hasArrived = StepContinuation<T>().follow(Y_, [&](const T& part, bool isFresh) {
         setStep(part * whole);
         return !stop.stop_requested() && (!isFresh || startFrom(t, StartingValue::fallback)) &&
-               iterate(t, StartingValue::fallback, stop) == Attempt::solved;
+               iterate(t, StartingValue::fallback, stop) == Outcome::converged;
     });
     setStep(whole);
     kineticScale_ = scale;  // to the last bit
-    if (stop.stop_requested()) return Attempt::stopped;
-    if (!hasArrived || !followsForces(t)) return Attempt::failed;
+    if (stop.stop_requested()) return Outcome::stopped;
+    if (!hasArrived || !followsForces(t)) return Outcome::diverged;
     rememberNodes();
-    return Attempt::solved;
+    return Outcome::converged;
 }
 
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::anyRoot(const T& t, const std::stop_token& stop) {
+Outcome GalerkinStep<T, D>::anyRoot(const T& t, const std::stop_token& stop) {
     isSolvedByFixedPoint_ = false;
     if (hasFixedPoint() && policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
-        Attempt result = fixedPoint(t, stop);
+        Outcome result = fixedPoint(t, stop);
         // Forces continued from the step before may be a poor start where steps are large.
-        if (policy_.method == SolverMethod::fixedPoint && result != Attempt::solved &&
-            result != Attempt::stopped)
+        if (policy_.method == SolverMethod::fixedPoint && result != Outcome::converged &&
+            result != Outcome::stopped)
             result = fixedPoint(t, stop);
-        isSolvedByFixedPoint_ = result == Attempt::solved;
+        isSolvedByFixedPoint_ = result == Outcome::converged;
         hasPrevious_ = false;
-        if (isSolvedByFixedPoint_ || result == Attempt::stopped || policy_.method == SolverMethod::fixedPoint)
+        if (isSolvedByFixedPoint_ || result == Outcome::stopped || policy_.method == SolverMethod::fixedPoint)
             return result;
         newtonSteps_ = stepsWithNewton;
     } else if (newtonSteps_ > 0) {

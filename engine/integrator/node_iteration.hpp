@@ -43,8 +43,6 @@
 
 namespace extremal {
 
-enum class FixedPointResult { solved, slow, notFinite, stopped };
-
 template <class T>
 class NodeIteration {
 public:
@@ -54,8 +52,8 @@ public:
 
     /// Solves the step from (t, q, p); carryQ and carryP, arrays of length d, are what q and p have lost to
     /// rounding. Counts into the report.
-    FixedPointResult solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP,
-                           int maxIterations, const std::stop_token& stop, StepReport& report);
+    Outcome solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP, int maxIterations,
+                  const std::stop_token& stop, StepReport& report);
 
     /// Of the step last solved: the increments of q and p; what rounding takes from them is added to the
     /// carries.

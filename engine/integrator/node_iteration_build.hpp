@@ -228,8 +228,8 @@ CorrectionSize<T> NodeIteration<T>::measured(const T* q, const T* p) const {
 }
 
 template <class T>
-FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP,
-                                         int maxIterations, const std::stop_token& stop, StepReport& report) {
+Outcome NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP,
+                                int maxIterations, const std::stop_token& stop, StepReport& report) {
     using Verdict = typename FixedPointPolicy<T>::Verdict;
     FixedPointPolicy<T> policy(tolerance_);
     place(t, p, carryQ, carryP);
@@ -240,7 +240,7 @@ FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, con
         s.G = N_.data();
         s.weight = weight_.data();
     };
-    if (sources_ > 0 && solveExplicitly(t, q, s, report)) return FixedPointResult::solved;
+    if (sources_ > 0 && solveExplicitly(t, q, s, report)) return Outcome::converged;
     const bool isOnward = hasForces_;
     if (!hasForces_) {
         startFromConstantForce(t, q);
@@ -250,7 +250,7 @@ FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, con
     sweep_(s);
     useImpulses();
     for (int iteration = 0; iteration < maxIterations; ++iteration) {
-        if (stop.stop_requested()) return FixedPointResult::stopped;
+        if (stop.stop_requested()) return Outcome::stopped;
         evaluateForces();
         sweep_(s);
         ++report.cost.iterations;
@@ -260,8 +260,8 @@ FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, con
         report.residual = static_cast<double>(size);
         hasForces_ = false;
         const Verdict verdict = policy.judge(size, [&] { return measured(q, p); });
-        if (verdict == Verdict::notFinite) return FixedPointResult::notFinite;
-        if (verdict == Verdict::slow) return FixedPointResult::slow;
+        if (verdict == Verdict::notFinite) return Outcome::notFinite;
+        if (verdict == Verdict::slow) return Outcome::diverged;
         if (verdict == Verdict::proceed) continue;
         // The forces are taken where the last sweep has put the nodes: left where the nodes were they would
         // have a bias that adds up over millions of steps.
@@ -271,9 +271,9 @@ FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, con
             report.cost.evaluations += n_;
         }
         hasForces_ = true;
-        return FixedPointResult::solved;
+        return Outcome::converged;
     }
-    return FixedPointResult::slow;
+    return Outcome::diverged;
 }
 
 /// Whether the first node, the only one that sees no other, is where the last node of the step before was.

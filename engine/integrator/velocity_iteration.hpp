@@ -48,8 +48,8 @@ public:
 
     /// As NodeIteration: solves the step from (t, q, p); carryQ and carryP are what q and p have lost to
     /// rounding.
-    FixedPointResult solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP,
-                           int maxIterations, const std::stop_token& stop, StepReport& report);
+    Outcome solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP, int maxIterations,
+                  const std::stop_token& stop, StepReport& report);
     void increments(T* dq, T* dp, T* carryQ, T* carryP) const;
     void coefficients(Eigen::Ref<Square> Y, Eigen::Ref<Square> forces) const;
     const T& nearness() const { return nearness_; }

@@ -171,9 +171,8 @@ CorrectionSize<T> VelocityIteration<T>::measured(const T* q, const T* p) const {
 }
 
 template <class T>
-FixedPointResult VelocityIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ,
-                                             const T* carryP, int maxIterations, const std::stop_token& stop,
-                                             StepReport& report) {
+Outcome VelocityIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP,
+                                    int maxIterations, const std::stop_token& stop, StepReport& report) {
     using Verdict = typename FixedPointPolicy<T>::Verdict;
     FixedPointPolicy<T> policy(tolerance_);
     for (int k = 0; k < d_; ++k) {
@@ -181,13 +180,13 @@ FixedPointResult VelocityIteration<T>::solve(const T& t, const T* q, const T* p,
         std::fill_n(carryP_.begin() + k * stride_, stride_, carryP[k]);
     }
     const bool isOnward = hasVelocities_;
-    if (!start(t, q, p)) return FixedPointResult::slow;
+    if (!start(t, q, p)) return Outcome::diverged;
     hasVelocities_ = false;
     drift(q);
     invertMasses();
     report.cost.evaluations += n_;
     for (int iteration = 0; iteration < maxIterations; ++iteration) {
-        if (stop.stop_requested()) return FixedPointResult::stopped;
+        if (stop.stop_requested()) return Outcome::stopped;
         kick(p);
         drift(q);
         ++report.cost.iterations;
@@ -200,8 +199,8 @@ FixedPointResult VelocityIteration<T>::solve(const T& t, const T* q, const T* p,
         if (iteration == 0) nearness_ = isOnward ? size : T(1);
         report.residual = static_cast<double>(size);
         const Verdict verdict = policy.judge(size, [&] { return measured(q, p); });
-        if (verdict == Verdict::notFinite) return FixedPointResult::notFinite;
-        if (verdict == Verdict::slow) return FixedPointResult::slow;
+        if (verdict == Verdict::notFinite) return Outcome::notFinite;
+        if (verdict == Verdict::slow) return Outcome::diverged;
         if (verdict == Verdict::proceed) continue;
         // Forces and velocities are taken where the last sweep has put the nodes: left where these were they
         // would have a bias that adds up over millions of steps.
@@ -212,9 +211,9 @@ FixedPointResult VelocityIteration<T>::solve(const T& t, const T* q, const T* p,
             report.cost.evaluations += n_;
         }
         hasVelocities_ = true;
-        return FixedPointResult::solved;
+        return Outcome::converged;
     }
-    return FixedPointResult::slow;
+    return Outcome::diverged;
 }
 
 template <class T>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/mechanism/mechanism.hpp"
+#include "engine/solve/corrections.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,8 @@
 namespace extremal {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+/// Of equations for velocities, in which those of the whole motion are subtracted.
+constexpr CorrectionLimits ofVelocities{.most = 30, .last = 4 * CorrectionLimits::epsilon, .roundOff = 1e-10};
 
 template <class Part>
 std::optional<Part> copyOf(const Parts& parts) {
@@ -64,15 +66,13 @@ bool Mechanism::accelerate(double t, const double* q, const double* v, Vector& a
         state_->rate(v, rate_);
         rhs_.tail(n) -= 2 * feedback * (rate_ + state_->byTime()) + feedback * feedback * state_->value();
     }
-    if (!state_->factorise()) return false;
-    state_->solve(rhs_);
+    const bool isSolved = solveForState();
     acceleration = rhs_.head(d);
     multipliers = rhs_.tail(n);
-    return rhs_.allFinite();
+    return isSolved;
 }
 
 bool Mechanism::project(double t, const double* q, double* p, Vector& v, Vector& kappa, bool knowsVelocity) {
-    constexpr int mostIterations = 30;
     const int d = dimension(), n = constraints();
     kappa = Vector::Zero(n);
     if (v.size() != d) v = Vector::Zero(d);
@@ -80,24 +80,21 @@ bool Mechanism::project(double t, const double* q, double* p, Vector& v, Vector&
     if (n == 0) return true;
     given_ = Eigen::Map<const Vector>(p, d);
     // Of the velocities on the way: where they end at 0, their round-off is that of those before.
-    double last = std::numeric_limits<double>::infinity(), scale = v.cwiseAbs().maxCoeff();
-    for (int iteration = 0; iteration < mostIterations; ++iteration) {
+    double scale = v.cwiseAbs().maxCoeff();
+    StepReport report;
+    const Outcome solved = solveByCorrections(ofVelocities, {}, report, [&](int, double) {
         state_->evaluate(t, q, v.data());
         state_->reaction(kappa, sum_);
         state_->rate(v.data(), rate_);
         rhs_.head(d) = given_ + sum_ - state_->gradient().tail(d);
         rhs_.tail(n) = -(rate_ + state_->byTime());
-        if (!state_->factorise()) return false;
-        state_->solve(rhs_);
-        if (!rhs_.allFinite()) return false;
+        if (!solveForState()) return Correction{.outcome = Outcome::singular};
         v += rhs_.head(d);
         kappa += rhs_.tail(n);
-        const double size = rhs_.head(d).cwiseAbs().maxCoeff();
         scale = std::max(scale, v.cwiseAbs().maxCoeff());
-        if (size <= 4 * epsilon * scale || (size >= last / 4 && size <= 1e-10 * scale)) break;
-        if (iteration + 1 == mostIterations) return false;
-        last = size;
-    }
+        return Correction{rhs_.head(d).cwiseAbs().maxCoeff(), scale};
+    });
+    if (solved != Outcome::converged) return false;
     state_->reaction(kappa, sum_);
     for (int i = 0; i < d; ++i) p[i] = given_(i) + sum_(i);
     return true;
@@ -105,15 +102,15 @@ bool Mechanism::project(double t, const double* q, double* p, Vector& v, Vector&
 
 std::optional<double> Mechanism::strike(double t, const double* q, double* p, const double* normal,
                                         double target) {
-    constexpr int mostIterations = 30;
     const int d = dimension(), n = constraints();
     const Vector given = Eigen::Map<const Vector>(p, d);
     const Eigen::Map<const Vector> along(normal, d);
     Vector v(d);
     if (!mechanics_.velocity(mechanics_.model.get(), t, q, p, v.data())) return {};
     Vector reactions = Vector::Zero(n), byImpulse(d + n);
-    double impulse = 0, last = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < mostIterations; ++iteration) {
+    double impulse = 0;
+    StepReport report;
+    const Outcome solved = solveByCorrections(ofVelocities, {}, report, [&](int, double) {
         state_->evaluate(t, q, v.data());
         state_->reaction(reactions, sum_);
         state_->rate(v.data(), rate_);
@@ -121,50 +118,44 @@ std::optional<double> Mechanism::strike(double t, const double* q, double* p, co
         rhs_.tail(n) = -(rate_ + state_->byTime());
         byImpulse.head(d) = along;
         byImpulse.tail(n).setZero();
-        if (!state_->factorise()) return {};
-        state_->solve(rhs_);
+        if (!solveForState()) return Correction{.outcome = Outcome::singular};
         state_->solve(byImpulse);
         // The impulse that is missing, from the one row more.
         const double more = (target - along.dot(v) - along.dot(rhs_.head(d))) / along.dot(byImpulse.head(d));
         rhs_ += more * byImpulse;
-        if (!rhs_.allFinite()) return {};
         v += rhs_.head(d);
         reactions += rhs_.tail(n);
         impulse += more;
-        const double step = rhs_.head(d).cwiseAbs().maxCoeff(), scale = v.cwiseAbs().maxCoeff();
-        if (step <= 4 * epsilon * scale || (step >= last / 4 && step <= 1e-10 * scale)) {
-            state_->reaction(reactions, sum_);
-            for (int i = 0; i < d; ++i) p[i] = given(i) + impulse * along(i) + sum_(i);
-            return impulse;
-        }
-        last = step;
-    }
-    return {};
+        return Correction{rhs_.head(d).cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff(), true,
+                          rhs_.allFinite() ? Outcome::converged : Outcome::notFinite};
+    });
+    if (solved != Outcome::converged) return {};
+    state_->reaction(reactions, sum_);
+    for (int i = 0; i < d; ++i) p[i] = given(i) + impulse * along(i) + sum_(i);
+    return impulse;
 }
 
 bool Mechanism::projectPlace(double t, double* q) {
-    constexpr int mostIterations = 50;
     const int d = dimension(), n = constraints();
     if (n == 0) return true;
     const Vector atRest = Vector::Zero(d);
-    double last = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < mostIterations; ++iteration) {
-        state_->evaluate(t, q, atRest.data());
-        rhs_.head(d).setZero();
-        rhs_.tail(n) = -state_->value();
-        if (!state_->factorise()) return false;
-        state_->solve(rhs_);
-        if (!rhs_.allFinite()) return false;
-        double scale = 0, size = 0;
-        for (int i = 0; i < d; ++i) {
-            q[i] += rhs_(i);
-            scale = std::max(scale, std::abs(q[i]));
-            size = std::max(size, std::abs(rhs_(i)));
-        }
-        if (size <= epsilon * scale || (size >= last / 4 && size <= 1e-12 * scale)) return true;
-        last = size;
-    }
-    return false;
+    Eigen::Map<Vector> place(q, d);
+    StepReport report;
+    const CorrectionLimits limits{.roundOff = 1e-12};
+    return solveByCorrections(limits, {}, report, [&](int, double) {
+               state_->evaluate(t, q, atRest.data());
+               rhs_.head(d).setZero();
+               rhs_.tail(n) = -state_->value();
+               if (!solveForState()) return Correction{.outcome = Outcome::singular};
+               place += rhs_.head(d);
+               return Correction{rhs_.head(d).cwiseAbs().maxCoeff(), place.cwiseAbs().maxCoeff()};
+           }) == Outcome::converged;
+}
+
+bool Mechanism::solveForState() {
+    if (!state_->factorise()) return false;
+    state_->solve(rhs_);
+    return rhs_.allFinite();
 }
 
 bool Mechanism::flow(double t, const double* q, const double* p, double* qdot, double* pdot,

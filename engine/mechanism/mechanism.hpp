@@ -103,6 +103,9 @@ public:
     Rank rank(double t, const double* q);
 
 private:
+    /// Solves the equations of state_ for rhs_; false where they are singular.
+    bool solveForState();
+
     Mechanics<double> mechanics_;
     Conditions conditions_;
     std::optional<Force> force_;

@@ -222,7 +222,6 @@ private:
     }
 
     Outcome newton(double h) {
-        using Verdict = NewtonPolicy<double>::Verdict;
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
         const auto limits = NewtonLimits<double>::elementStep(tolerance_);
         NewtonPolicy<double> policy(limits);
@@ -251,14 +250,12 @@ private:
                 if (iteration == 0 || change <= linear * firstChange) nearness_ = near;
                 if (iteration == 0) firstChange = change;
             }
-            const Verdict verdict = policy.judge(size, [&] {
+            const auto end = endOf(policy.judge(size, [&] {
                 findMasses(h);
                 return measureCorrection<double>(d, [&](int k) { return correctionOf(k, h); });
-            });
+            }));
             policy.jacobianIsNew();
-            if (verdict == Verdict::converged) return Outcome::converged;
-            if (verdict == Verdict::notFinite) return Outcome::notFinite;
-            if (verdict == Verdict::diverged) return Outcome::diverged;
+            if (end) return *end;
             Y_ -= residual_.head(m * d);
             impulses_ -= residual_.tail(m * n);
         }

@@ -24,7 +24,6 @@ Outcome solveNewton(Eigen::Matrix<T, Eigen::Dynamic, 1>& x, System&& system, con
     using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
     using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
     if (x.size() == 0) return Outcome::converged;
-    using Verdict = typename NewtonPolicy<T>::Verdict;
     constexpr int mostHalvings = 30;
     const auto limits = NewtonLimits<T>::dense();
     NewtonPolicy<T> policy(limits);
@@ -38,11 +37,9 @@ Outcome solveNewton(Eigen::Matrix<T, Eigen::Dynamic, 1>& x, System&& system, con
         const T change = delta.cwiseAbs().maxCoeff(),
                 scale = std::max({T(x.cwiseAbs().maxCoeff()), change, size});
         const T relative = change > T(0) ? T(change / scale) : change;
-        const Verdict verdict = policy.judge(relative);
-        if (verdict == Verdict::notFinite) return Outcome::notFinite;
-        if (verdict == Verdict::converged) {
-            x += delta;
-            return Outcome::converged;
+        if (const auto end = endOf(policy.judge(relative))) {
+            if (*end == Outcome::converged) x += delta;
+            return *end;
         }
         const bool isNear = relative <= limits.stagnation;
         T damping(1);

@@ -14,8 +14,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
+#include "engine/core/outcome.hpp"
 #include "engine/solve/correction_size.hpp"
 
 namespace extremal {
@@ -114,16 +116,34 @@ struct NewtonLimits {
 /// given up: so many halvings leave 1e-9 of it.
 inline constexpr int mostRetreats = 30;
 
+/// What to do after a correction: it is the last one; go on; go on with a new Jacobian; give up.
+enum class NewtonVerdict { converged, proceed, slow, diverged, notFinite };
+
+/// How the iteration has ended, if it has.
+constexpr std::optional<Outcome> endOf(NewtonVerdict verdict) {
+    switch (verdict) {
+        case NewtonVerdict::converged:
+            return Outcome::converged;
+        case NewtonVerdict::diverged:
+            return Outcome::diverged;
+        case NewtonVerdict::notFinite:
+            return Outcome::notFinite;
+        case NewtonVerdict::proceed:
+        case NewtonVerdict::slow:
+            break;
+    }
+    return {};
+}
+
 template <class T>
 class NewtonPolicy {
 public:
-    enum class Verdict { converged, proceed, slow, diverged, notFinite };
+    using Verdict = NewtonVerdict;
 
     explicit NewtonPolicy(const NewtonLimits<T>& limits) : limits_(limits) {}
 
-    /// What to do after a correction of this relative size: it is the last one; go on; go on with a new
-    /// Jacobian; give up. `floor`: what round-off in the equations leaves of corrections, where that is
-    /// known.
+    /// After a correction of this relative size. `floor`: what round-off in the equations leaves of
+    /// corrections, where that is known.
     Verdict judge(const T& size, const T& floor = T(0)) {
         if (!(size < std::numeric_limits<T>::infinity())) return Verdict::notFinite;
         const bool isFirst = !(last_ < std::numeric_limits<T>::infinity());

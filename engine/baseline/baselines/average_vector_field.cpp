@@ -13,11 +13,12 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/parts.hpp"
-#include "engine/baseline/flow_jacobian.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
+#include "engine/baseline/flow_jacobian.hpp"
 #include "engine/baseline/flow_method.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/quadrature/rule.hpp"
+#include "engine/solve/corrections.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -41,50 +42,32 @@ public:
 
 private:
     void step(double t) override {
-        constexpr double epsilon = std::numeric_limits<double>::epsilon();
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         const int d = this->d();
         const double h = this->h();
         this->flow(t, this->q0_, this->p0_, dq_, dp_);
         if (this->report_.outcome != Outcome::converged) return;
         change_ << h * dq_, h * dp_;
-        double last = infinity;
         CoordinateWatch watch;
-        bool wantsJacobian = true;
-        for (int iteration = 0; iteration < 50; ++iteration) {
-            if (this->stop().stop_requested()) {
-                this->report_.outcome = Outcome::stopped;
-                return;
-            }
-            evaluate(t, wantsJacobian);
-            if (this->report_.outcome != Outcome::converged) return;
-            residual_ = lu_.solve(h * average_ - change_);
-            change_ += residual_;
-            ++this->report_.cost.linearSolves;
-            ++this->report_.cost.iterations;
-            for (int k = 0; k < d; ++k) {
-                watch.add(residual_(k), change_(k), this->q0_(k));
-                watch.add(residual_(d + k), change_(d + k), this->p0_(k));
-            }
-            const bool isSettled = watch.isSettled();
-            const double size = residual_.cwiseAbs().maxCoeff(),
-                         scale = std::max({this->q0_.cwiseAbs().maxCoeff(), this->p0_.cwiseAbs().maxCoeff(),
-                                           change_.cwiseAbs().maxCoeff()});
-            this->report_.residual = scale > 0 ? size / scale : size;
-            if (!(size < infinity)) {
-                this->report_.outcome = Outcome::notFinite;
-                return;
-            }
-            if ((size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) &&
-                isSettled) {
-                this->q1_ = this->q0_ + change_.head(d);
-                this->p1_ = this->p0_ + change_.tail(d);
-                return;
-            }
-            wantsJacobian = size > last / 10;
-            last = size;
-        }
-        this->report_.outcome = Outcome::diverged;
+        this->report_.outcome = solveByCorrections(
+            CorrectionLimits{}, this->stop(), this->report_, [&](int iteration, double ratio) {
+                evaluate(t, iteration == 0 || ratio > 0.1);
+                if (this->report_.outcome != Outcome::converged)
+                    return Correction{.outcome = this->report_.outcome};
+                residual_ = lu_.solve(h * average_ - change_);
+                change_ += residual_;
+                ++this->report_.cost.linearSolves;
+                for (int k = 0; k < d; ++k) {
+                    watch.add(residual_(k), change_(k), this->q0_(k));
+                    watch.add(residual_(d + k), change_(d + k), this->p0_(k));
+                }
+                return Correction{residual_.cwiseAbs().maxCoeff(),
+                                  std::max({this->q0_.cwiseAbs().maxCoeff(), this->p0_.cwiseAbs().maxCoeff(),
+                                            change_.cwiseAbs().maxCoeff()}),
+                                  watch.isSettled()};
+            });
+        if (this->report_.outcome != Outcome::converged) return;
+        this->q1_ = this->q0_ + change_.head(d);
+        this->p1_ = this->p0_ + change_.tail(d);
     }
     /// The average of X_H along the chord, and, where it is wanted, I - h sum_i b_i c_i DX_H factored.
     void evaluate(double t, bool withJacobian) {

@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/parts.hpp"
 #include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/gauss_tableau.hpp"
+#include "engine/baseline/parts.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/solve/correction_size.hpp"
 
@@ -98,8 +98,6 @@ public:
     }
 
 private:
-    enum class Attempt { solved, failed, stopped, notFinite, singular };
-
     bool isSeparable() const { return this->mechanics_.isSeparable; }
 
     void step(double t) override {
@@ -109,41 +107,26 @@ private:
             lostP_.setZero();
         }
         hasCurve_ = false;
-        Attempt result = Attempt::failed;
+        Outcome result = Outcome::diverged;
         if (isContinued) {
             newKq_.noalias() = continuation_.lazyProduct(Kq_);
             newKp_.noalias() = continuation_.lazyProduct(Kp_);
             result = iterate(t);
         }
         // Far away, continued polynomials are poor: once more from a constant field.
-        if (result == Attempt::failed || result == Attempt::notFinite || result == Attempt::singular) {
+        if (result == Outcome::diverged || result == Outcome::notFinite || result == Outcome::singular) {
             this->report_.outcome = Outcome::converged;
             this->flow(t, this->q0_, this->p0_, dq_, dp_);
             newKq_.rowwise() = dq_.transpose();
             newKp_.rowwise() = dp_.transpose();
             result = iterate(t);
         }
-        switch (result) {
-            case Attempt::solved:
-                break;
-            case Attempt::failed:
-                this->report_.outcome = Outcome::diverged;
-                return;
-            case Attempt::stopped:
-                this->report_.outcome = Outcome::stopped;
-                return;
-            case Attempt::notFinite:
-                this->report_.outcome = Outcome::notFinite;
-                return;
-            case Attempt::singular:
-                this->report_.outcome = Outcome::singular;
-                return;
-        }
-        finish();
+        this->report_.outcome = result;
+        if (result == Outcome::converged) finish();
     }
 
     /// Fixed-point iteration from newKq_, newKp_; ends in Kq_, Kp_.
-    Attempt iterate(double t) {
+    Outcome iterate(double t) {
         constexpr double epsilon = std::numeric_limits<double>::epsilon();
         constexpr double infinity = std::numeric_limits<double>::infinity();
         constexpr int usual = 100;  // iterations after which some coordinates may be buried
@@ -152,10 +135,10 @@ private:
         bool hasBuried = false;
         BuriedWatch<double> buried;
         for (int iteration = 0; iteration < 200; ++iteration) {
-            if (this->stop().stop_requested()) return Attempt::stopped;
+            if (this->stop().stop_requested()) return Outcome::stopped;
             Kq_.swap(newKq_);
             Kp_.swap(newKp_);
-            if (!evaluate(t)) return Attempt::singular;
+            if (!evaluate(t)) return Outcome::singular;
             ++this->report_.cost.iterations;
             double size = change();
             this->report_.residual = size;
@@ -169,7 +152,7 @@ private:
                 size = apart.size;
                 isSettled = buried.hasSettled(apart.buried) || apart.buried <= epsilon;
             }
-            if (!(size < infinity)) return Attempt::notFinite;
+            if (!(size < infinity)) return Outcome::notFinite;
             // At round-off; or so close that what is left to come, by the contraction seen, is below it; or
             // no longer shrinking (over two iterations, as oscillations make it shrink by turns). A
             // correction beyond the increments, of a coordinate near zero, says nothing of the contraction.
@@ -181,14 +164,14 @@ private:
             if (isSolved && isSettled) {
                 Kq_.swap(newKq_);
                 Kp_.swap(newKp_);
-                return Attempt::solved;
+                return Outcome::converged;
             }
             growing = size >= before && !isSolved ? growing + 1 : 0;
-            if (growing >= 4) return Attempt::failed;
+            if (growing >= 4) return Outcome::diverged;
             earlier = before;
             before = size;
         }
-        return Attempt::failed;
+        return Outcome::diverged;
     }
 
     /// newK from K.

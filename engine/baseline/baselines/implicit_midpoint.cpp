@@ -9,11 +9,12 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/parts.hpp"
-#include "engine/baseline/flow_jacobian.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
+#include "engine/baseline/flow_jacobian.hpp"
 #include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/gauss_tableau.hpp"
+#include "engine/baseline/parts.hpp"
+#include "engine/solve/corrections.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -40,50 +41,34 @@ public:
 private:
     void step(double t) override {
         const double half = this->h() / 2;
-        constexpr double epsilon = std::numeric_limits<double>::epsilon();
         const int d = this->d();
         q_ = this->q0_;
         p_ = this->p0_;
-        double last = std::numeric_limits<double>::infinity();
         CoordinateWatch watch;
-        for (int iteration = 0; iteration < 50; ++iteration) {
-            if (this->stop().stop_requested()) {
-                this->report_.outcome = Outcome::stopped;
-                return;
-            }
-            this->flow(t + half, q_, p_, dq_, dp_);
-            if (this->report_.outcome != Outcome::converged) return;
-            if (iteration == 0) assemble(t + half, half);
-            r_.head(d) = this->q0_ + half * dq_ - q_;
-            r_.tail(d) = this->p0_ + half * dp_ - p_;
-            r_ = lu_.solve(r_);
-            ++this->report_.cost.linearSolves;
-            q_ += r_.head(d);
-            p_ += r_.tail(d);
-            ++this->report_.cost.iterations;
-            for (int k = 0; k < d; ++k) {
-                watch.add(r_(k), q_(k) - this->q0_(k), this->q0_(k));
-                watch.add(r_(d + k), p_(k) - this->p0_(k), this->p0_(k));
-            }
-            const bool isSettled = watch.isSettled();
-            const double size = r_.cwiseAbs().maxCoeff();
-            const double scale = std::max(q_.cwiseAbs().maxCoeff(), p_.cwiseAbs().maxCoeff());
-            this->report_.residual = scale > 0 ? size / scale : size;
-            if (!(size < std::numeric_limits<double>::infinity())) {
-                this->report_.outcome = Outcome::notFinite;
-                return;
-            }
-            if ((size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) &&
-                isSettled) {
+        this->report_.outcome = solveByCorrections(
+            CorrectionLimits{}, this->stop(), this->report_, [&](int iteration, double ratio) {
                 this->flow(t + half, q_, p_, dq_, dp_);
-                this->q1_ = this->q0_ + 2 * half * dq_;
-                this->p1_ = this->p0_ + 2 * half * dp_;
-                return;
-            }
-            if (size > last / 4) assemble(t + half, half);
-            last = size;
-        }
-        this->report_.outcome = Outcome::diverged;
+                if (this->report_.outcome != Outcome::converged)
+                    return Correction{.outcome = this->report_.outcome};
+                if (iteration == 0 || ratio > 0.25) assemble(t + half, half);
+                r_.head(d) = this->q0_ + half * dq_ - q_;
+                r_.tail(d) = this->p0_ + half * dp_ - p_;
+                r_ = lu_.solve(r_);
+                ++this->report_.cost.linearSolves;
+                q_ += r_.head(d);
+                p_ += r_.tail(d);
+                for (int k = 0; k < d; ++k) {
+                    watch.add(r_(k), q_(k) - this->q0_(k), this->q0_(k));
+                    watch.add(r_(d + k), p_(k) - this->p0_(k), this->p0_(k));
+                }
+                return Correction{r_.cwiseAbs().maxCoeff(),
+                                  std::max(q_.cwiseAbs().maxCoeff(), p_.cwiseAbs().maxCoeff()),
+                                  watch.isSettled()};
+            });
+        if (this->report_.outcome != Outcome::converged) return;
+        this->flow(t + half, q_, p_, dq_, dp_);
+        this->q1_ = this->q0_ + 2 * half * dq_;
+        this->p1_ = this->p0_ + 2 * half * dp_;
     }
     /// M = (1 - h/2 f')^-1 (1 + h/2 f'), f' at the midpoint.
     bool tangent(double t, typename Base::Columns W) override {

@@ -18,9 +18,10 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/baseline/body_method.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/family/parts/conditions.hpp"
-#include "engine/baseline/body_method.hpp"
+#include "engine/solve/corrections.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -79,35 +80,21 @@ private:
     }
     /// Newton's method; NaN where it fails, with the outcome in report_.
     Vector solve(const Vector& J, const Vector& target) {
-        constexpr double epsilon = std::numeric_limits<double>::epsilon();
-        const Vector none = Vector::Constant(std::numeric_limits<double>::quiet_NaN());
         Vector xi = target.cwiseQuotient(J);
-        double last = std::numeric_limits<double>::infinity();
-        for (int iteration = 0; iteration < 50; ++iteration) {
-            if (stop().stop_requested()) {
-                report_.outcome = Outcome::stopped;
-                return none;
-            }
+        const CorrectionLimits limits{.last = 4 * CorrectionLimits::epsilon, .roundOff = 1e-11};
+        report_.outcome = solveByCorrections(limits, stop(), report_, [&](int, double) {
             const Vector change = slope(xi, J).partialPivLu().solve(defect(xi, J, target));
             xi -= change;
-            ++report_.cost.iterations;
             ++report_.cost.evaluations;
             ++report_.cost.linearSolves;
-            const double size = change.norm();
-            report_.residual = size / std::max(xi.norm(), 1e-300);
-            if (!std::isfinite(size)) {
-                report_.outcome = Outcome::notFinite;
-                return none;
-            }
-            if (size <= 4 * epsilon * xi.norm() || (size < 1e-11 * xi.norm() && size >= 0.25 * last)) {
-                // Beyond pi the nearest solution is another one than that of the motion.
-                if (!(xi.norm() < 3.1415926)) report_.outcome = Outcome::diverged;
-                return xi;
-            }
-            last = size;
-        }
-        report_.outcome = Outcome::diverged;
-        return none;
+            return Correction{change.norm(), xi.norm()};
+        });
+        // Beyond pi the nearest solution is another one than that of the motion.
+        if (report_.outcome == Outcome::converged && !(xi.norm() < 3.1415926))
+            report_.outcome = Outcome::diverged;
+        else if (report_.outcome != Outcome::converged)
+            xi.setConstant(std::numeric_limits<double>::quiet_NaN());
+        return xi;
     }
 
     void move(BodyMotion<double>& m, double h) {

@@ -29,6 +29,7 @@
 #include "engine/family/energy_momentum/density.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/quadrature/rule.hpp"
+#include "engine/solve/corrections.hpp"
 #include "engine/space/polynomial.hpp"
 
 namespace extremal::baselines {
@@ -175,41 +176,20 @@ private:
         return true;
     }
     void solve() {
-        constexpr double epsilon = std::numeric_limits<double>::epsilon();
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         z_ = z0_;
-        double last = infinity;
         CoordinateWatch watch;
-        for (int iteration = 0; iteration < 60; ++iteration) {
-            if (stop().stop_requested()) {
-                report_.outcome = Outcome::stopped;
-                return;
-            }
-            if (!linearise()) {
-                report_.outcome = Outcome::singular;
-                return;
-            }
-            residual_ = z0_ + first_ / 2 * turned_ - z_;
-            residual_ = lu_.solve(residual_);
-            ++report_.cost.linearSolves;
-            ++report_.cost.iterations;
-            for (int k = 0; k < z_.size(); ++k) watch.add(residual_(k), z_(k) - z0_(k), z0_(k));
-            const bool isSettled = watch.isSettled();
-            const double size = residual_.cwiseAbs().maxCoeff(), scale = z_.cwiseAbs().maxCoeff();
-            report_.residual = scale > 0 ? size / scale : size;
-            if (!(size < infinity)) {
-                report_.outcome = Outcome::notFinite;
-                return;
-            }
-            if ((size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) &&
-                isSettled) {
-                z1_ = z0_ + first_ * turned_;
-                return;
-            }
-            z_ += residual_;
-            last = size;
-        }
-        report_.outcome = Outcome::diverged;
+        report_.outcome =
+            solveByCorrections(CorrectionLimits{.most = 60}, stop(), report_, [&](int iteration, double) {
+                if (iteration > 0) z_ += residual_;
+                if (!linearise()) return Correction{.outcome = Outcome::singular};
+                residual_ = z0_ + first_ / 2 * turned_ - z_;
+                residual_ = lu_.solve(residual_);
+                ++report_.cost.linearSolves;
+                for (int k = 0; k < z_.size(); ++k) watch.add(residual_(k), z_(k) - z0_(k), z0_(k));
+                return Correction{residual_.cwiseAbs().maxCoeff(), z_.cwiseAbs().maxCoeff(),
+                                  watch.isSettled()};
+            });
+        if (report_.outcome == Outcome::converged) z1_ = z0_ + first_ * turned_;
     }
 
     Mechanics<double> mechanics_;

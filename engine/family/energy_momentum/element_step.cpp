@@ -75,7 +75,6 @@ bool ElementStep::retreat(double t, double h, StepReport& report) {
 }
 
 Outcome ElementStep::newton(double t, double h, const std::stop_token& stop, StepReport& report) {
-    using Verdict = NewtonPolicy<double>::Verdict;
     const int d = dimension(), n = unknowns(), m = table_.unknowns();
     const auto limits = NewtonLimits<double>::elementStep(tolerance_);
     NewtonPolicy<double> policy(limits);
@@ -112,14 +111,12 @@ Outcome ElementStep::newton(double t, double h, const std::stop_token& stop, Ste
             size = std::max(size, relativeCorrection(c.change, c.increments, c.value));
         }
         report.residual = size;
-        const Verdict verdict = policy.judge(size, [&] {
+        const auto end = endOf(policy.judge(size, [&] {
             findMasses(t, h);
             return measureCorrection<double>(d, coordinate);
-        });
+        }));
         policy.jacobianIsNew();
-        if (verdict == Verdict::converged) return Outcome::converged;
-        if (verdict == Verdict::notFinite) return Outcome::notFinite;
-        if (verdict == Verdict::diverged) return Outcome::diverged;
+        if (end) return *end;
         Y_ -= residual_;
     }
     return Outcome::diverged;

@@ -90,20 +90,12 @@ private:
                 if (!time_.isBalanced()) evaluate(u, report.cost);
                 return Outcome::converged;
             }
-            switch (policy.judge(size)) {
-                case NewtonPolicy<double>::Verdict::converged:
-                    if (!time_.isBalanced()) evaluate(u, report.cost);
-                    return Outcome::converged;
-                case NewtonPolicy<double>::Verdict::proceed:
-                    break;
-                case NewtonPolicy<double>::Verdict::slow:
-                    hasJacobian_ = false;
-                    break;
-                case NewtonPolicy<double>::Verdict::diverged:
-                    return Outcome::diverged;
-                case NewtonPolicy<double>::Verdict::notFinite:
-                    return Outcome::notFinite;
+            const NewtonVerdict verdict = policy.judge(size);
+            if (const auto end = endOf(verdict)) {
+                if (*end == Outcome::converged && !time_.isBalanced()) evaluate(u, report.cost);
+                return *end;
             }
+            hasJacobian_ = verdict != NewtonVerdict::slow;
         }
         return Outcome::diverged;
     }

@@ -10,6 +10,7 @@
 
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/mass_matrix.hpp"
+#include "engine/solve/corrections.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
@@ -35,26 +36,21 @@ public:
 
     bool solve() {
         if (inner_ == 0) return true;
-        double last = std::numeric_limits<double>::infinity();
-        constexpr int most = 50;
-        for (int iteration = 0; iteration < most; ++iteration) {
-            const Eigen::VectorXd F = residual();
-            const Eigen::SparseLU<SparseLevels> lu(jacobian());
-            if (lu.info() != Eigen::Success) return false;
-            const Eigen::VectorXd delta = lu.solve(-F);
-            if (!delta.allFinite()) return false;
-            double size = 0;
-            for (std::size_t i = 0; i < n_; ++i)
-                for (int l = 1; l <= inner_; ++l) level(l)[i] += delta(unknown(static_cast<int>(i), l));
-            for (const double u : U_) size = std::max(size, std::abs(u));
-            const double correction = delta.cwiseAbs().maxCoeff() / std::max(1e-300, size);
-            // To the last place, or to where corrections stop shrinking.
-            if (correction <= std::numeric_limits<double>::epsilon() ||
-                (correction < 1e-12 && correction > last / 4))
-                return true;
-            last = correction;
-        }
-        return false;
+        StepReport report;
+        const CorrectionLimits limits{.roundOff = 1e-12};
+        return solveByCorrections(limits, {}, report, [&](int, double) {
+                   const Eigen::VectorXd F = residual();
+                   const Eigen::SparseLU<SparseLevels> lu(jacobian());
+                   if (lu.info() != Eigen::Success) return Correction{.outcome = Outcome::singular};
+                   const Eigen::VectorXd delta = lu.solve(-F);
+                   if (!delta.allFinite()) return Correction{.outcome = Outcome::notFinite};
+                   double size = 0;
+                   for (std::size_t i = 0; i < n_; ++i)
+                       for (int l = 1; l <= inner_; ++l)
+                           level(l)[i] += delta(unknown(static_cast<int>(i), l));
+                   for (const double u : U_) size = std::max(size, std::abs(u));
+                   return Correction{delta.cwiseAbs().maxCoeff(), size};
+               }) == Outcome::converged;
     }
 
     const std::vector<double>& levels() const { return U_; }

@@ -10,6 +10,7 @@
 
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/mass_matrix.hpp"
+#include "engine/solve/corrections.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
@@ -82,28 +83,20 @@ private:
                     x(local(e, a, l)) =
                         u[i] + (problem_->isFixed(static_cast<int>(i)) ? 0 : tau * h() * v[i]);
                 }
-        double last = std::numeric_limits<double>::infinity();
-        for (int iteration = 0;; ++iteration) {
-            if (stop().stop_requested()) return Outcome::stopped;
+        const CorrectionLimits limits{.roundOff = 1e-12};
+        const Outcome solved = solveByCorrections(limits, stop(), report, [&](int, double) {
             Sparse J(size_, size_);
             assemble(x, u, p.data(), F, J);
             Eigen::SparseLU<Sparse> lu(J);
-            if (lu.info() != Eigen::Success) return Outcome::singular;
+            if (lu.info() != Eigen::Success) return Correction{.outcome = Outcome::singular};
             const Eigen::VectorXd delta = lu.solve(-F);
-            if (!delta.allFinite()) return Outcome::notFinite;
+            if (!delta.allFinite()) return Correction{.outcome = Outcome::notFinite};
             x += delta;
-            ++report.cost.iterations;
             ++report.cost.linearSolves;
-            const double correction = delta.head(unknowns_).cwiseAbs().maxCoeff() /
-                                      std::max(1e-300, x.head(unknowns_).cwiseAbs().maxCoeff());
-            report.residual = correction;
-            // To the last place, or to where corrections stop shrinking.
-            if (correction <= std::numeric_limits<double>::epsilon() ||
-                (correction < 1e-12 && correction > last / 4))
-                break;
-            if (iteration > 50) return Outcome::diverged;
-            last = correction;
-        }
+            return Correction{delta.head(unknowns_).cwiseAbs().maxCoeff(),
+                              x.head(unknowns_).cwiseAbs().maxCoeff()};
+        });
+        if (solved != Outcome::converged) return solved;
         finish(x, next);
         return Outcome::converged;
     }

@@ -76,8 +76,6 @@ private:
     using Columns = Eigen::Matrix<T, n, Eigen::Dynamic>;
     using Square = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
     using Flat = Eigen::Matrix<T, Eigen::Dynamic, 1>;
-    enum class Attempt { solved, failed, notFinite, singular, stopped };
-
     int m() const { return table_.unknowns(); }
     int nodes() const { return table_.nodes(); }
     void placeNodes();
@@ -86,13 +84,13 @@ private:
     void residual();
     /// The matrix of lu_, to be filled.
     auto jacobian() { return Eigen::Map<Square>(lu_.column(0), n * m(), n * m()); }
-    Attempt assembleJacobian();
+    Outcome assembleJacobian();
     void addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A, Matrix& xiXi);
     T correction();
     T floor() const;
     void correct();
     void updateImpulse();
-    Attempt iterate(const std::stop_token& stop);
+    Outcome iterate(const std::stop_token& stop);
     Vector vary(const Vector& base, bool movesY);
     /// Test functions of the table at node i.
     auto testAt(int i) const {

@@ -161,7 +161,7 @@ void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& a
 
 /// dR/dY at the present Y, and its factorisation.
 template <class T, class G>
-typename LieStep<T, G>::Attempt LieStep<T, G>::assembleJacobian() {
+Outcome LieStep<T, G>::assembleJacobian() {
     auto jacobian = this->jacobian();
     jacobian.setZero();
     if (isUnreduced_) placeFoot();
@@ -189,11 +189,11 @@ typename LieStep<T, G>::Attempt LieStep<T, G>::assembleJacobian() {
         case SmallLu<T>::Result::regular:
             break;
         case SmallLu<T>::Result::singular:
-            return Attempt::singular;
+            return Outcome::singular;
         case SmallLu<T>::Result::notFinite:
-            return Attempt::notFinite;
+            return Outcome::notFinite;
     }
-    return Attempt::solved;
+    return Outcome::converged;
 }
 
 /// Solves for the correction of Y from R, in flat_; returns its size relative to the unknowns.
@@ -262,38 +262,31 @@ void LieStep<T, G>::updateImpulse() {
 /// Newton's method from the predicted curve. Light axes stop further away from round-off than others: with a
 /// new Jacobian, floor() is what they can reach.
 template <class T, class G>
-typename LieStep<T, G>::Attempt LieStep<T, G>::iterate(const std::stop_token& stop) {
-    using Verdict = typename NewtonPolicy<T>::Verdict;
+Outcome LieStep<T, G>::iterate(const std::stop_token& stop) {
     NewtonPolicy<T> policy(NewtonLimits<T>::lieStep(tolerance_));
     placeNodes();
-    Attempt attempt = assembleJacobian();
-    if (attempt != Attempt::solved) return attempt;
+    Outcome assembled = assembleJacobian();
+    if (assembled != Outcome::converged) return assembled;
     for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
-        if (stop.stop_requested()) return Attempt::stopped;
+        if (stop.stop_requested()) return Outcome::stopped;
         residual();
         const T size = correction();
         ++report_->cost.iterations;
         report_->residual = static_cast<double>(size);
-        if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
+        if (!(size < std::numeric_limits<T>::infinity())) return Outcome::notFinite;
         correct();
-        switch (policy.judge(size, policy.isJacobianNew() ? floor() : T(0))) {
-            case Verdict::converged:
-                updateImpulse();
-                return Attempt::solved;
-            case Verdict::diverged:
-                return Attempt::failed;
-            case Verdict::notFinite:
-                return Attempt::notFinite;
-            case Verdict::proceed:
-                break;
-            case Verdict::slow:
-                attempt = assembleJacobian();
-                if (attempt != Attempt::solved)
-                    return attempt == Attempt::notFinite ? Attempt::failed : attempt;
-                policy.jacobianIsNew();
+        const NewtonVerdict verdict = policy.judge(size, policy.isJacobianNew() ? floor() : T(0));
+        if (const auto end = endOf(verdict)) {
+            if (*end == Outcome::converged) updateImpulse();
+            return *end;
         }
+        if (verdict != NewtonVerdict::slow) continue;
+        assembled = assembleJacobian();
+        if (assembled != Outcome::converged)
+            return assembled == Outcome::notFinite ? Outcome::diverged : assembled;
+        policy.jacobianIsNew();
     }
-    return Attempt::failed;
+    return Outcome::diverged;
 }
 
 template <class T, class G>
@@ -303,18 +296,8 @@ Outcome LieStep<T, G>::advance(Pose<T>& pose, StepReport& report, const std::sto
     baseElement_ = G::element(known_);
     mu_ = G::bodyMomentum(baseElement_, known_);
     if (!predict()) return isRateFinite(body_, poses_[0]) ? Outcome::diverged : Outcome::notFinite;
-    switch (iterate(stop)) {
-        case Attempt::solved:
-            break;
-        case Attempt::failed:
-            return Outcome::diverged;
-        case Attempt::notFinite:
-            return Outcome::notFinite;
-        case Attempt::singular:
-            return Outcome::singular;
-        case Attempt::stopped:
-            return Outcome::stopped;
-    }
+    const Outcome solved = iterate(stop);
+    if (solved != Outcome::converged) return solved;
     // Beyond, the chart folds over itself at 2 pi, and the solution is hardly the wanted one.
     const Vector xiEnd = Y_.col(m() - 1);
     if (xiEnd.template head<3>().squaredNorm() > T(25)) return Outcome::diverged;

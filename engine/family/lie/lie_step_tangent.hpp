@@ -44,7 +44,7 @@ template <class T, class G>
 bool LieStep<T, G>::applyTangent(T* W, int columns) {
     StepReport unused;
     report_ = &unused;
-    if (assembleJacobian() != Attempt::solved) return false;
+    if (assembleJacobian() != Outcome::converged) return false;
     const Vector xiEnd = Y_.col(m() - 1);
     const typename G::template Chart<0> end(xiEnd), opposite(-xiEnd);
     for (T* w = W; columns > 0; --columns, w += 2 * n) {

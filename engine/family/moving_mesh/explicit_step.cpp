@@ -103,17 +103,7 @@ Outcome ExplicitStep::solve(const std::vector<double>& z0, double h, StepReport&
             value = std::max(value, std::abs(y));
         }
         report.residual = relativeCorrection(largest, increments, value);
-        switch (policy.judge(report.residual)) {
-            case NewtonPolicy<double>::Verdict::converged:
-                return Outcome::converged;
-            case NewtonPolicy<double>::Verdict::proceed:
-            case NewtonPolicy<double>::Verdict::slow:
-                break;
-            case NewtonPolicy<double>::Verdict::diverged:
-                return Outcome::diverged;
-            case NewtonPolicy<double>::Verdict::notFinite:
-                return Outcome::notFinite;
-        }
+        if (const auto end = endOf(policy.judge(report.residual))) return *end;
     }
     return Outcome::diverged;
 }

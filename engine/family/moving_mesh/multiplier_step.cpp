@@ -148,19 +148,10 @@ Outcome MultiplierStep::solve(const std::vector<double>& z0, double h, StepRepor
         ++report.cost.iterations;
         ++report.cost.linearSolves;
         report.residual = size;
-        switch (policy.judge(size)) {
-            case NewtonPolicy<double>::Verdict::converged:
-                return space_.isOrdered(z1_.data()) ? Outcome::converged : Outcome::lost;
-            case NewtonPolicy<double>::Verdict::proceed:
-                break;
-            case NewtonPolicy<double>::Verdict::slow:
-                hasJacobian = false;
-                break;
-            case NewtonPolicy<double>::Verdict::diverged:
-                return Outcome::diverged;
-            case NewtonPolicy<double>::Verdict::notFinite:
-                return Outcome::notFinite;
-        }
+        const NewtonVerdict verdict = policy.judge(size);
+        if (const auto end = endOf(verdict))
+            return *end == Outcome::converged && !space_.isOrdered(z1_.data()) ? Outcome::lost : *end;
+        hasJacobian = verdict != NewtonVerdict::slow;
     }
     return Outcome::diverged;
 }

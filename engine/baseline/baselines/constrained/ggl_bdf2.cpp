@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "engine/baseline/constrained_method.hpp"
+#include "engine/solve/corrections.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -61,34 +62,27 @@ private:
     }
 
     Outcome step() override {
-        constexpr int mostIterations = 50;
-        constexpr double epsilon = std::numeric_limits<double>::epsilon();
         const auto& L = mechanism_.mechanics();
         if (!L.velocity(L.model.get(), start(), q0_.data(), p0_.data(), velocity_.data()))
             return Outcome::singular;
         q1_ = q0_ + h() * velocity_;
-        double last = std::numeric_limits<double>::infinity();
-        for (int iteration = 0; iteration < mostIterations; ++iteration) {
-            if (stop().stop_requested()) return Outcome::stopped;
+        const CorrectionLimits limits{.last = 4 * CorrectionLimits::epsilon, .roundOff = 1e-11};
+        const Outcome solved = solveByCorrections(limits, stop(), report_, [&](int, double) {
             assemble();
             residual_ = matrix_.partialPivLu().solve(residual_).eval();
-            ++report_.cost.iterations;
             ++report_.cost.linearSolves;
-            if (!residual_.allFinite()) return Outcome::notFinite;
+            if (!residual_.allFinite()) return Correction{.outcome = Outcome::notFinite};
             q1_ -= residual_.head(d());
             velocity_ -= residual_.segment(d(), d());
             lambda_ -= residual_.segment(2 * d(), n());
             mu_ -= residual_.tail(n());
-            const double size = residual_.head(2 * d()).cwiseAbs().maxCoeff();
-            const double scale = std::max(q1_.cwiseAbs().maxCoeff(), velocity_.cwiseAbs().maxCoeff());
-            if (size <= 4 * epsilon * scale || (size >= last / 4 && size <= 1e-11 * scale)) {
-                L.gradient(L.model.get(), end(), q1_.data(), velocity_.data(), gradient_.data());
-                p1_ = gradient_.tail(d());
-                return Outcome::converged;
-            }
-            last = size;
-        }
-        return Outcome::diverged;
+            return Correction{residual_.head(2 * d()).cwiseAbs().maxCoeff(),
+                              std::max(q1_.cwiseAbs().maxCoeff(), velocity_.cwiseAbs().maxCoeff())};
+        });
+        if (solved != Outcome::converged) return solved;
+        L.gradient(L.model.get(), end(), q1_.data(), velocity_.data(), gradient_.data());
+        p1_ = gradient_.tail(d());
+        return Outcome::converged;
     }
 
     /// The equations and their derivatives by (q, v, lambda, mu).
