@@ -2,15 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
-#include <mutex>
 #include <optional>
 #include <utility>
 
 #include "engine/core/algebra/dense.hpp"
+#include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
-#include "engine/core/work.hpp"
 #include "engine/family/frequency.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/family/parts/described_on_system.hpp"
@@ -60,52 +58,21 @@ double megabytes(const Table<double>& t) {
     return 8e-6 * static_cast<double>(entries);
 }
 
-/// What was made for a space and a rule before. A result is a function of the settings alone, so it does not
-/// matter who asked first; its work counts for everybody who asks.
+/// What was made for a space and a rule before: a function of the settings alone. Sizes are in megabytes.
 template <class V>
-class Memory {
+class KnownBySettings {
 public:
-    explicit Memory(std::string of) : of_(std::move(of)) {}
+    explicit KnownBySettings(std::string of) : of_(std::move(of)) {}
 
     template <class Make>
-    V get(const Settings& space, const Settings& quadrature, Make make) {
+    V get(const Settings& space, const Settings& quadrature, Make&& make) {
         const std::string key = keyOf(space) + "||" + keyOf(quadrature);
-        std::optional<Known> known = recall(key);
-        if (!known) {
-            work::Measured measured;
-            V made = make();
-            known = Known{std::move(made), measured.spent()};
-            keep(key, *known);
-        }
-        work::spendOnce(of_ + key, known->work);
-        return std::move(known->made);
+        return known_.get(key, of_ + key, std::forward<Make>(make));
     }
 
 private:
-    struct Known {
-        V made;
-        double work;
-    };
-
-    std::optional<Known> recall(const std::string& key) {
-        const std::lock_guard lock(mutex_);
-        const auto found = known_.find(key);
-        return found == known_.end() ? std::nullopt : std::optional(found->second);
-    }
-    void keep(const std::string& key, const Known& known) {
-        const std::lock_guard lock(mutex_);
-        size_ += megabytes(known.made);
-        if (known_.size() >= 256 || size_ > 256) {
-            known_.clear();
-            size_ = megabytes(known.made);
-        }
-        known_.emplace(key, known);
-    }
-
     std::string of_;
-    std::mutex mutex_;
-    std::map<std::string, Known> known_;
-    double size_ = 0;  ///< of all that is known, in megabytes
+    CountedCache<std::string, V> known_{256, 256.0, [](const V& v) { return megabytes(v); }};
 };
 
 /// The family of a space that the reader has found in the catalogue.
@@ -206,7 +173,7 @@ TimeGrid timeGridOf(const Settings& space) {
 }
 
 Properties describe(const Discretization& discretization) {
-    static Memory<Properties> known("properties");
+    static KnownBySettings<Properties> known("properties");
     const auto& [space, quadrature, solver] = discretization;
     if (isTensorRule(quadrature) && !knownFamily(space).parts.find<TensorRules>()) {
         Properties p;
@@ -270,7 +237,7 @@ bool hasTable(const Discretization& discretization) {
 }
 
 Table<double> tableOf(const Settings& space, const Settings& quadrature) {
-    static Memory<Table<double>> known("table");
+    static KnownBySettings<Table<double>> known("table");
     return known.get(space, quadrature,
                      [&] { return knownFamily(space).parts.find<Tables>()->make(space, quadrature); });
 }

@@ -15,7 +15,6 @@ namespace extremal::typed {
 struct DerivativesFound {
     std::shared_ptr<const SymbolicLagrangian> result;
     std::optional<ExpressionError> error;
-    double work = 0;  ///< what it has taken (core/work.hpp)
 };
 
 DerivativesFound findDerivatives(const Formula& formula, const ResolvedFormula& resolved,
