@@ -10,11 +10,11 @@
 #include "engine/core/algebra/dense.hpp"
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text/exact_number.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 #include "engine/integrator/stability.hpp"
-#include "engine/space/formulas.hpp"
 #include "engine/tableau/order_conditions.hpp"
 
 namespace extremal {
@@ -36,22 +36,9 @@ struct Reader {
     double known = exact;
 
     Quad number(const Value& entry, const std::string& pointer) {
-        if (entry.isNumber()) {
-            const std::string text = formatNumber(entry.asNumber());
-            if (text.size() > 8) known = rounded;  // not 0.5 or 0.125, but digits of something
-            const Quad x(text.c_str());
-            if (!isfinite(x)) throw InvalidScene(pointer, "is not finite");
-            return x;
-        }
-        if (!entry.isString())
-            throw InvalidScene(pointer, "must be a number or an expression in quotes", "for example \"1/6\"");
-        try {
-            const Quad x(exactValue(parseExpression(entry.asString())));
-            if (!isfinite(x)) throw InvalidScene(pointer, "is not finite: " + entry.asString());
-            return x;
-        } catch (const ExpressionError& e) {
-            throw InvalidScene(pointer, std::string("the expression ") + e.what(), e.hint);
-        }
+        // Not 0.5 or 0.125, but digits of something.
+        if (entry.isNumber() && formatNumber(entry.asNumber()).size() > 8) known = rounded;
+        return exactNumber(entry, pointer, "\"1/6\"");
     }
     std::vector<Quad> numbers(const Settings& settings, const char* key) {
         const std::string pointer = std::string("/baseline/") + key;

@@ -12,6 +12,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
+#include "engine/core/text/invalid_text.hpp"
 #include "engine/group/so3.hpp"
 #include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
@@ -142,7 +143,7 @@ typed::TypedMechanics differentiated(const std::string& text, bool hasPosition,
     } catch (const ExpressionError& e) {
         const bool isOfWhole = e.position >= prefix && e.position <= text.size() + prefix;
         const std::size_t place = isOfWhole ? e.position - prefix : std::min(e.position, text.size());
-        throw InvalidScene("/potential", std::string(e.what()) + "\n" + caretLines(text, place), e.hint);
+        throw invalidText("/potential", text, ExpressionError(e.what(), place, e.hint));
     }
 }
 

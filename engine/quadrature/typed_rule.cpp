@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/text/exact_number.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/quadrature/legendre.hpp"
@@ -20,61 +21,13 @@ constexpr std::size_t mostNodes = 64;
 /// Moments that are right to this were meant to be right.
 constexpr double meant = 1e-3;
 
-Quad valueOf(const Expression& e) {
-    std::vector<Quad> at;
-    const auto operand = [&](int place) { return place < 0 ? Quad(0) : at[static_cast<std::size_t>(place)]; };
-    for (const Expression::Node& node : e.nodes) {
-        const Quad a = operand(node.left), b = operand(node.right), c = operand(node.third);
-        switch (node.kind) {
-            case Operator::number:
-                at.push_back(node.name == "pi" ? pi<Quad>() : Quad(node.name.c_str()));
-                break;
-            case Operator::negate:
-                at.push_back(-a);
-                break;
-            case Operator::add:
-                at.push_back(a + b);
-                break;
-            case Operator::subtract:
-                at.push_back(a - b);
-                break;
-            case Operator::multiply:
-                at.push_back(a * b);
-                break;
-            case Operator::divide:
-                at.push_back(a / b);
-                break;
-            case Operator::power:
-                at.push_back(pow(a, b));
-                break;
-            case Operator::call:
-                at.push_back(node.name == "sqrt"  ? sqrt(a)
-                             : node.name == "cos" ? cos(a)
-                             : node.name == "sin"
-                                 ? sin(a)
-                                 : Quad(applyNode(node, static_cast<double>(a), static_cast<double>(b),
-                                                  static_cast<double>(c))));
-                break;
-            case Operator::name:
-                throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position);
-        }
-    }
-    return at.back();
-}
-
 std::vector<Quad> valuesOf(const Settings& quadrature, const char* key) {
     std::vector<Quad> values;
     const Value* const given = quadrature.find(key);
     if (!given || !given->isArray()) return values;
     for (const Value& entry : given->asArray()) {
         const std::string pointer = std::string("/quadrature/") + key + "/" + std::to_string(values.size());
-        try {
-            values.push_back(entry.isNumber() ? Quad(formatNumber(entry.asNumber()).c_str())
-                                              : valueOf(parseExpression(entry.asString())));
-        } catch (const ExpressionError& e) {
-            throw InvalidScene(pointer, std::string("the expression ") + e.what(), e.hint);
-        }
-        if (!isfinite(values.back())) throw InvalidScene(pointer, "is not finite");
+        values.push_back(exactNumber(entry, pointer, "\"(3-sqrt(3))/6\""));
     }
     return values;
 }

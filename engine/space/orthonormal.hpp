@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/long_numbers.hpp"
 #include "engine/core/work.hpp"
-#include "engine/space/long_numbers.hpp"
 
 namespace extremal {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/space/long_numbers.hpp"
+#include "engine/core/algebra/long_numbers.hpp"
 #include "engine/space/space.hpp"
 
 namespace extremal {

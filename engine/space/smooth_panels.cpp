@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/algebra/long_numbers.hpp"
 #include "engine/quadrature/rule.hpp"
-#include "engine/space/long_numbers.hpp"
 
 namespace extremal {
 namespace {

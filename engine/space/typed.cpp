@@ -7,9 +7,11 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/core/algebra/long_numbers.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text/exact_number.hpp"
+#include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
-#include "engine/space/long_numbers.hpp"
 #include "engine/space/orthonormal.hpp"
 #include "engine/space/smooth_panels.hpp"
 
@@ -347,11 +349,7 @@ Formulas formulasOf(const Settings& space) {
     Formulas formulas;
     const auto read = [](const Value& value, const std::string& pointer) {
         const std::string text = value.isString() ? value.asString() : formatNumber(value.asNumber());
-        try {
-            return parseExpression(text);
-        } catch (const ExpressionError& e) {
-            throw InvalidScene(pointer, std::string("the expression ") + e.what(), e.hint);
-        }
+        return atPlace(pointer, text, [&] { return parseExpression(text); });
     };
     if (const Value* functions = space.find("functions"))
         for (const Value& function : functions->asArray())
@@ -376,10 +374,9 @@ std::vector<__float128> exactCells(const Settings& space) {
             "more cells than that are better taken as more steps");
     if (knots && knots->isArray())
         for (const Value& knot : knots->asArray()) {
-            const __float128 exact = exactValue(
-                parseExpression(knot.isNumber() ? formatNumber(knot.asNumber()) : knot.asString()));
-            const auto place = static_cast<double>(exact);
             const std::string pointer = "/space/knots/" + std::to_string(cells.size() - 1);
+            const __float128 exact = exactNumber(knot, pointer, "\"1/3\"").backend().value();
+            const auto place = static_cast<double>(exact);
             if (!(place > 0 && place < 1))
                 throw InvalidScene(pointer,
                                    "must be inside the step, between 0 and 1, got " + formatNumber(place));

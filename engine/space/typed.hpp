@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/space/formulas.hpp"
+#include "engine/core/text/formulas.hpp"
 #include "engine/space/space.hpp"
 
 namespace extremal {

@@ -23,6 +23,7 @@
 #include "engine/core/algebra/stumpff.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
+#include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/landmarks.hpp"
@@ -54,7 +55,7 @@ std::string potentialText(const Value& value, const std::string& pointer, std::v
                                       "potentials depend on x, y, z and t; m and charge are known");
         }
     } catch (const ExpressionError& e) {
-        problems.push_back({pointer, std::string(e.what()) + "\n" + caretLines(text, e.position), e.hint});
+        problems.push_back(invalidText(pointer, text, e).problems().front());
     }
     return "(" + text + ")";
 }
@@ -220,10 +221,7 @@ System makeChargedParticle(const Settings& settings) {
     try {
         made = typed::makeMechanics(formula);
     } catch (const ExpressionError& e) {
-        throw InvalidScene("",
-                           "the Lagrangian of these potentials " + std::string(e.what()) + "\n" +
-                               caretLines(formula.text, e.position),
-                           e.hint);
+        throw invalidText("", formula.text, e, "the Lagrangian of these potentials ");
     }
     System s;
     s.id = "charged-particle";

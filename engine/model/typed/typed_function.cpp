@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape_registers.hpp"
@@ -54,8 +55,7 @@ TypedFunction::TypedFunction(const std::string& text, const std::string& pointer
         value_ = Tape::of(graph, std::vector<int>{here.front()}, d);
         all_ = Tape::of(graph, here, d);
     } catch (const ExpressionError& e) {
-        throw InvalidScene(
-            pointer, "the expression " + std::string(e.what()) + "\n" + caretLines(text, e.position), e.hint);
+        throw invalidText(pointer, text, e, "the expression ");
     }
 }
 

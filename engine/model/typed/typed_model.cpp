@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/text/invalid_text.hpp"
 #include "engine/model/typed/parts/controls.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/typeset.hpp"
@@ -92,8 +93,7 @@ TypedMechanics mechanicsOf(const Formula& formula) {
         const auto found = std::find_if(formula.terms.begin(), formula.terms.end(),
                                         [&](const auto& entry) { return entry.first == term; });
         const std::string& text = found == formula.terms.end() ? formula.text : found->second;
-        throw InvalidScene("/lagrangian" + (term.empty() ? "" : "/" + term),
-                           std::string(e.what()) + "\n" + caretLines(text, e.position), e.hint);
+        throw invalidText("/lagrangian" + (term.empty() ? "" : "/" + term), text, e);
     }
 }
 

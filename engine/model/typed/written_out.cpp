@@ -7,6 +7,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/indexed.hpp"
+#include "engine/core/text/invalid_text.hpp"
 #include "engine/model/typed/formula.hpp"
 
 namespace extremal::typed {
@@ -22,16 +23,6 @@ bool hasIndex(const Value& value) {
            std::any_of(value.asObject().begin(), value.asObject().end(), [](const Value::Member& m) {
                return extremal::hasIndices(m.first) || hasIndex(m.second);
            });
-}
-
-/// Calls `make`, and says what is wrong at its place in a text.
-template <class Make>
-auto located(const std::string& pointer, const std::string& text, const Make& make) {
-    try {
-        return make();
-    } catch (const ExpressionError& e) {
-        throw InvalidScene(pointer, std::string(e.what()) + "\n" + caretLines(text, e.position), e.hint);
-    }
 }
 
 class Expansion {
@@ -61,7 +52,7 @@ public:
 
 private:
     std::vector<IndexedName> namesAt(const std::string& name, const std::string& pointer) {
-        const auto made = located(pointer, name, [&] { return namesOf(name, parameters_); });
+        const auto made = atPlace(pointer, name, [&] { return namesOf(name, parameters_); });
         names_ += made.size();
         if (names_ > 4 * maxCoordinates)
             throw InvalidScene(pointer, "makes more than " + std::to_string(4 * maxCoordinates) + " names");
@@ -69,7 +60,7 @@ private:
     }
     std::string text(const std::string& typed, const std::string& pointer, const IndexedName& of) {
         std::string made =
-            located(pointer, typed, [&] { return extremal::writtenOut(typed, parameters_, of); });
+            atPlace(pointer, typed, [&] { return extremal::writtenOut(typed, parameters_, of); });
         length_ += made.size();
         if (length_ > maxExpandedLength)
             throw InvalidScene(pointer, "is too long when all sums are written out: the limit is " +

@@ -8,17 +8,11 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
+#include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
 
 namespace extremal::wave {
 namespace {
-
-[[noreturn]] void refuse(const std::string& pointer, const std::string& text, const ExpressionError& e,
-                         const std::string& hint) {
-    throw InvalidScene(pointer,
-                       "the expression " + std::string(e.what()) + "\n" + caretLines(text, e.position),
-                       e.hint.empty() ? hint : e.hint);
-}
 
 std::optional<double> lookUp(const Constants& constants, std::string_view name) {
     for (const auto& [key, value] : constants)
@@ -42,7 +36,7 @@ double numberOf(const Value& value, const std::string& pointer, const Constants&
             number = evaluate(parseExpression(value.asString()),
                               [&](std::string_view name) { return lookUp(constants, name); });
         } catch (const ExpressionError& e) {
-            refuse(pointer, value.asString(), e, namesOf(constants, {"pi"}));
+            throw invalidText(pointer, value.asString(), e, "the expression ", namesOf(constants, {"pi"}));
         }
     } else {
         throw InvalidScene(pointer, "must be a number or an expression");
@@ -74,7 +68,7 @@ Function functionOf(const std::string& text, const std::string& pointer, const C
             throw InvalidScene(pointer, "depends on t: a start is a function of place alone");
         f.value(0.5, 0.5, 0.5);  // every name is looked up once
     } catch (const ExpressionError& e) {
-        refuse(pointer, text, e, namesOf(constants, known));
+        throw invalidText(pointer, text, e, "the expression ", namesOf(constants, known));
     }
     return f;
 }

@@ -183,6 +183,8 @@ private slots:
         row("row", R"~({"type":"runge-kutta","a":[[],[1,2,3]],"b":["1/2","1/2"]})~", "/a/1", "at most 2");
         row("no row", R"~({"type":"runge-kutta","a":[[],1],"b":["1/2","1/2"]})~", "/a/1", "array");
         row("name", R"~({"type":"runge-kutta","a":[[],["g"]],"b":["1/2","1/2"]})~", "/a/1/0", "expression");
+        row("variable", R"~({"type":"runge-kutta","a":[[],["1/2+0*tau"]],"b":["1/2","1/2"]})~", "/a/1/0",
+            "unknown name");
         row("syntax", R"~({"type":"runge-kutta","a":[[],["1/"]],"b":["1/2","1/2"]})~", "/a/1/0",
             "expression");
         row("infinite", R"~({"type":"runge-kutta","a":[[],["1/0"]],"b":["1/2","1/2"]})~", "/a/1/0",

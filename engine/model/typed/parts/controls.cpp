@@ -7,6 +7,7 @@
 
 #include "engine/core/algebra/interpolant.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
 
 namespace extremal::typed {
@@ -22,9 +23,7 @@ Expression formulaControl(const std::string& text, const Formula& formula, const
         own.text = text;
         return resolve(own).expression;
     } catch (const ExpressionError& e) {
-        const std::string what = e.what();
-        throw InvalidScene(pointer, what + "\n" + caretLines(text, e.position),
-                           e.hint.empty() ? "a control is a function of t and of parameters" : e.hint);
+        throw invalidText(pointer, text, e, {}, "a control is a function of t and of parameters");
     }
 }
 

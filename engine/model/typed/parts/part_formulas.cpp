@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
 
 namespace extremal::typed {
@@ -54,12 +55,7 @@ OwnFormula::OwnFormula(const Formula& model, const std::string& text) {
 bool occurs(const std::string& name, const std::string& text) { return wordsOf(text).contains(name); }
 
 std::shared_ptr<const SymbolicLagrangian> derivativesOf(const Formula& formula, const std::string& pointer) {
-    try {
-        return differentiate(formula);
-    } catch (const ExpressionError& e) {
-        throw InvalidScene(pointer, std::string(e.what()) + "\n" + caretLines(formula.text, e.position),
-                           e.hint);
-    }
+    return atPlace(pointer, formula.text, [&] { return differentiate(formula); }, {});
 }
 
 const Value::Object& formulasUnder(const Settings& settings, const char* key) {

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "engine/space/formulas.hpp"
-#include "engine/space/long_numbers.hpp"
+#include "engine/core/algebra/long_numbers.hpp"
+#include "engine/core/text/formulas.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::formulas_test {

@@ -61,7 +61,4 @@ private:
     std::vector<int> results_;
 };
 
-/// The value of an expression without names, in quadruple precision.
-__float128 exactValue(const Expression& expression);
-
 }  // namespace extremal

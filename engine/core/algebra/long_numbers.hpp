@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The numbers that tables of typed spaces are made with: quadruple precision, and a hundred digits where
-/// that is not enough. Internal to engine/space: includes large headers.
+/// that is not enough. For sources alone: includes large headers.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

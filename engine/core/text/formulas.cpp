@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/space/formulas.hpp"
+#include "engine/core/text/formulas.hpp"
 
 #include <boost/math/constants/constants.hpp>
 #include <boost/math/special_functions/asinh.hpp>
@@ -9,9 +9,9 @@
 #include <cmath>
 #include <type_traits>
 
+#include "engine/core/algebra/long_numbers.hpp"
 #include "engine/core/algebra/stumpff.hpp"
 #include "engine/core/work.hpp"
-#include "engine/space/long_numbers.hpp"
 
 namespace extremal {
 namespace {
@@ -308,12 +308,5 @@ void EvaluatedFormulas<T>::operator()(const T& tau, std::span<T> value, std::spa
 
 template class EvaluatedFormulas<Quad>;
 template class EvaluatedFormulas<Hundred>;
-
-__float128 exactValue(const Expression& expression) {
-    const EvaluatedFormulas<Quad> evaluated({{expression}, {}, {}});
-    Quad value, slope;
-    evaluated(Quad(0), {&value, 1}, {&slope, 1});
-    return value.backend().value();
-}
 
 }  // namespace extremal
