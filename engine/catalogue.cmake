@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # extremal_catalogue(namespace folders type header function)
 #   For every FOLDER/<stem>.cpp, which defines `TYPE extremal::NAMESPACE::<stem>()`, one entry in alphabetical order
-#   of `const std::vector<TYPE>& extremal::FUNCTION()`. FOLDER may be a pattern, or a list of them.
+#   of `const std::vector<TYPE>& extremal::FUNCTION()`. FOLDER may be a pattern, or a list of them. In a folder named
+#   tables, a file defines `std::vector<TYPE> extremal::NAMESPACE::<stem>()`, rows without code of their own.
 #   Self-registering statics would vanish from a static library.
 function(extremal_catalogue namespace folders type header function)
     set(files "")
@@ -10,16 +11,27 @@ function(extremal_catalogue namespace folders type header function)
         list(APPEND files ${found})
     endforeach()
     set(stems "")
+    set(tables "")
     foreach(file ${files})
         get_filename_component(stem ${file} NAME_WE)
-        list(APPEND stems ${stem})
+        if(file MATCHES "/tables/[^/]*$")
+            list(APPEND tables ${stem})
+        else()
+            list(APPEND stems ${stem})
+        endif()
     endforeach()
     list(SORT stems)
+    list(SORT tables)
     set(declarations "")
     set(entries "")
     foreach(stem ${stems})
         string(APPEND declarations "${type} ${stem}();\n")
         string(APPEND entries "        ${namespace}::${stem}(),\n")
+    endforeach()
+    set(rows "")
+    foreach(stem ${tables})
+        string(APPEND declarations "std::vector<${type}> ${stem}();\n")
+        string(APPEND rows "    addRows(entries, ${namespace}::${stem}());\n")
     endforeach()
     set(out ${CMAKE_CURRENT_BINARY_DIR}/${namespace}_catalogue.cpp)
     file(CONFIGURE OUTPUT ${out} CONTENT
@@ -31,8 +43,11 @@ namespace ${namespace} {
 ${declarations}}  // namespace ${namespace}
 
 const std::vector<${type}>& ${function}() {
-    static const std::vector<${type}> all = OwnEntries<${type}>::joined({
-${entries}    });
+    static const std::vector<${type}> all = [] {
+        std::vector<${type}> entries{
+${entries}        };
+${rows}        return OwnEntries<${type}>::joined(std::move(entries));
+    }();
     return all;
 }
 }  // namespace extremal

@@ -4,6 +4,7 @@
 /// become part of the constant.
 #pragma once
 
+#include <algorithm>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -45,5 +46,15 @@ private:
     inline static bool isInUse_ = false;
     inline static std::vector<Entry> added_;
 };
+
+/// Adds the rows of a table, each in front of the first entry whose id is greater, as those of files are in
+/// alphabetical order.
+template <class Entry>
+void addRows(std::vector<Entry>& entries, std::vector<Entry> rows) {
+    for (Entry& row : rows)
+        entries.insert(std::find_if(entries.begin(), entries.end(),
+                                    [&](const Entry& entry) { return entry.item.id > row.item.id; }),
+                       std::move(row));
+}
 
 }  // namespace extremal
