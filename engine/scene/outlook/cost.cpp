@@ -6,6 +6,7 @@
 #include "engine/scene/outlook/two_positions.hpp"
 
 namespace extremal {
+
 double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) {
     constexpr double budget = 3e-3;
     constexpr int largestBlock = 1024;
@@ -17,9 +18,16 @@ double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) 
     integrator->begin(state);
     const bool isFixed = integrator->grid() == TimeGrid::fixed;
     const Clock nodes{state.t, integrator->stepSize()};
-    // A first step meets code and memory for the first time.
-    if (State first = state; state.t < end)
-        (void)integrator->clone()->advance(first, isFixed ? nodes.at(state.node + 1) : end);
+    // A first step meets code and memory for the first time; where it is long, it is trial enough.
+    constexpr double longFirst = 0.1;
+    if (State first = state; state.t < end) {
+        const double begin = threadSeconds();
+        const auto outcome =
+            integrator->clone()->advance(first, isFixed ? nodes.at(first.node + 1) : end).outcome;
+        const double spent = threadSeconds() - begin;
+        if (spent > longFirst && first.t > state.t)
+            return outcome == Outcome::converged ? spent * (end - start) / (first.t - start) : 0;
+    }
     const double begin = threadSeconds();
     double spent = 0;
     // Blocks that double: reading the clock costs as much as a cheap step.
