@@ -26,7 +26,7 @@ bool AdaptiveMethod::variationalFlow(double t, const double* y, double* dy, std:
     if (!flow(t, y, dy)) return false;
     velocity_.assign(dy, dy + n / 2);
     for (double& v : velocity_) v *= ahead_;
-    const Eigen::MatrixXd& jacobian = jacobian_->evaluate(ahead_ * t, y, velocity_.data());
+    const Eigen::MatrixXd& jacobian = jacobian_->evaluate(ahead_ * t, y, y + n / 2, velocity_.data());
     const auto rows = static_cast<Eigen::Index>(n), columns = static_cast<Eigen::Index>(size / n) - 1;
     Eigen::Map<Eigen::MatrixXd>(dy + n, rows, columns).noalias() =
         ahead_ * jacobian.lazyProduct(Eigen::Map<const Eigen::MatrixXd>(y + n, rows, columns));

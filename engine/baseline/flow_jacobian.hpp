@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The Jacobian of Hamilton's vector field X_H = (qdot, pdot), from the Hessian of L at v = v(q, p): with
 /// M = L_vv,
-///     v_q = -M^{-1} L_vq,  v_p = M^{-1},   pdot_q = L_qq + L_qv v_q,  pdot_p = L_qv v_p.
-/// For implicit baselines. Rows and columns: q first, then p. Nothing is allocated after the constructor.
+///     v_q = -M^{-1} L_vq,  v_p = M^{-1},   pdot_q = L_qq + L_qv v_q,  pdot_p = L_qv v_p,
+/// or of a Hamiltonian (model/phase_mechanics.hpp) from that of H itself. For implicit baselines. Rows and
+/// columns: q first, then p. Nothing is allocated after the constructor.
 #pragma once
 
 #include <Eigen/LU>
 
 #include "engine/model/mechanics.hpp"
+#include "engine/model/phase_mechanics.hpp"
 
 namespace extremal {
 
@@ -27,8 +29,14 @@ public:
           massLu_(mechanics.dimension) {}
 
     /// At (q, p), v = v(q, p) being known.
-    const Square& evaluate(double t, const double* q, const double* v) {
+    const Square& evaluate(double t, const double* q, const double* p, const double* v) {
         const int d = mechanics_.dimension;
+        if (const PhaseMechanics* const H = hamiltonianOf(mechanics_)) {
+            H->hessian(H->model.get(), t, q, p, hessian_.data());
+            matrix_.topRows(d) = hessian_.bottomRows(d);
+            matrix_.bottomRows(d) = -hessian_.topRows(d);
+            return matrix_;
+        }
         double value = 0;
         mechanics_.jet(mechanics_.model.get(), t, q, v, &value, gradient_.data(), hessian_.data());
         massLu_.compute(hessian_.bottomRightCorner(d, d));

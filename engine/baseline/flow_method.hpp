@@ -43,7 +43,7 @@ public:
     double stepSize() const final { return h_; }
     void setStep(double h) final { h_ = h; }
 
-    std::size_t tangentSize() const final { return static_cast<std::size_t>(2 * d()); }
+    std::size_t tangentSize() const override { return static_cast<std::size_t>(2 * d()); }
     bool applyTangent(std::span<double> W) final {
         return tangent(startTime_,
                        Columns(W.data(), 2 * d(), static_cast<Eigen::Index>(W.size()) / (2 * d())));
@@ -90,7 +90,7 @@ protected:
         }
         if (!mechanics_.velocity(mechanics_.model.get(), t, q.data(), p.data(), velocity_.data()))
             return nullptr;
-        return &jacobian_->evaluate(t, q.data(), velocity_.data());
+        return &jacobian_->evaluate(t, q.data(), p.data(), velocity_.data());
     }
 
     /// Hamilton's vector field; sets the outcome where the Legendre transform fails.

@@ -228,8 +228,9 @@ BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage
         for (const PartitionedStage& s : stages) flows.push_back({movesMomentum(s.map), s.fraction});
         return tableauOf(flows, 1e-30);
     }});
+    e.takes = flowProblems();
     e.make = [stages = std::move(stages)](const System& system, const BaselineOptions& options) {
-        return makePartitioned(system.mechanics(), options.step, stages);
+        return makePartitioned(flowOf(system), options.step, stages);
     };
     return e;
 }

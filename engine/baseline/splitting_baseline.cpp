@@ -4,8 +4,8 @@
 
 #include "engine/baseline/partitioned.hpp"
 #include "engine/baseline/parts.hpp"
-#include "engine/family/parts/conditions.hpp"
 #include "engine/baseline/wave_splitting.hpp"
+#include "engine/family/parts/conditions.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 
 namespace extremal {
@@ -36,17 +36,17 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
               {},
               Claims{splitting.order, true, true, {"momentum", "norm"}},
               splitting.isNystrom ? "a separable Lagrangian" : ""};
-    e.takes = Takes::only<Mechanical, Wave>();
+    e.takes = flowProblems().with<Wave>();
     e.parts.set(SystemCondition{[isNystrom = splitting.isNystrom](const System& system) {
-        return system.parts.find<Wave>() || !isNystrom || system.mechanics().isSeparable;
+        return system.parts.find<Wave>() || !isNystrom || flowOf(system).isSeparable;
     }});
     // Fractions are printed to 15 digits.
     e.parts.set(OscillatorLimit(firstEdge(OscillatorStep(tableauOf(splitting.stages, 1e-15)).intervals())));
     e.parts.set(BaselineTableau{[splitting](const Settings&) { return tableauOf(splitting.stages, 1e-15); }});
     e.make = [splitting](const System& system, const BaselineOptions& options) {
         if (system.parts.find<Wave>()) return makeWaveSplitting(system, options.step, splitting);
-        return makePartitioned(system.mechanics(), options.step,
-                               partitionedStages(splitting, system.mechanics().isSeparable));
+        const Mechanics<double> flow = flowOf(system);
+        return makePartitioned(flow, options.step, partitionedStages(splitting, flow.isSeparable));
     };
     return e;
 }

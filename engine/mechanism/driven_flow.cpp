@@ -55,7 +55,7 @@ bool flow(const void* p, const double& t, const double* q, const double* momentu
 }  // namespace
 
 Mechanics<double> drivenMechanics(const System& system) {
-    if (!Mechanism::isOne(system.parts)) return system.mechanics();
+    if (!Mechanism::isOne(system.parts)) return flowOf(system);
     static std::atomic<long long> next{0};
     const Mechanics<double>& L = system.mechanics();
     Mechanics<double> made;

@@ -2,6 +2,7 @@
 #include "engine/model/conservative.hpp"
 
 #include "engine/model/mechanisms.hpp"
+#include "engine/model/phase_mechanics.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal {
@@ -9,6 +10,8 @@ namespace extremal {
 std::string_view timeDependentPart(const System& system) {
     if (const Mechanical* const m = system.parts.find<Mechanical>(); m && m->isTimeDependent)
         return "the Lagrangian";
+    if (const PhaseMechanics* const H = system.parts.find<PhaseMechanics>(); H && H->isTimeDependent)
+        return "the Hamiltonian";
     if (const Wave* const wave = system.parts.find<Wave>(); wave && wave->hamiltonian->isTimeDependent())
         return "the potential";
     if (const Constraint* const g = system.parts.find<Constraint>(); g && g->isTimeDependent)

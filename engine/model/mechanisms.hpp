@@ -6,6 +6,7 @@
 #include "engine/model/parts/force.hpp"
 #include "engine/model/parts/rolling.hpp"
 #include "engine/model/parts/wall.hpp"
+#include "engine/model/phase_mechanics.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal {
@@ -13,7 +14,12 @@ namespace extremal {
 /// Lagrangians in coordinates, with all of them.
 inline Takes mechanisms() { return Takes::only<Mechanical, Constraint, Force, Rolling, Wall>(); }
 
+/// Any problem of one part alone, Hamiltonians among them: of what looks at tangent maps.
+inline Takes plainProblemsAndHamiltonians() { return plainProblems().with<PhaseMechanics>(); }
+
 /// Any problem, and mechanisms: of what looks at energies and momenta of states.
-inline Takes plainProblemsAndMechanisms() { return plainProblems().with<Constraint, Force, Rolling, Wall>(); }
+inline Takes plainProblemsAndMechanisms() {
+    return plainProblems().with<Constraint, Force, Rolling, Wall, PhaseMechanics>();
+}
 
 }  // namespace extremal

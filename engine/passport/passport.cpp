@@ -6,6 +6,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/family/parts/written_on_system.hpp"
 #include "engine/passport/measured.hpp"
 #include "engine/passport/scene_formula.hpp"
 #include "engine/passport/scheme_tableau.hpp"
@@ -69,9 +70,11 @@ void addKind(const ResolvedScene& scene, const ResolvedScheme& scheme, Document&
     page.blocks.emplace_back(std::move(t));
 }
 
-void addAction(const ResolvedScheme& scheme, Document& page) {
+void addAction(const ResolvedScheme& scheme, const System& system, Document& page) {
     if (!scheme.family) return;
-    const WrittenAction w = scheme.family->written(scheme.discretization);
+    const auto* const onSystem = scheme.family->parts.find<WrittenOnSystem>();
+    const auto own = onSystem ? onSystem->written(scheme.discretization, system) : std::nullopt;
+    const WrittenAction w = own ? *own : scheme.family->written(scheme.discretization);
     page.blocks.emplace_back(Document::Heading{"The discrete action"});
     page.blocks.emplace_back(Document::Paragraph{w.meaning});
     page.blocks.emplace_back(Document::Formulas{w.action});
@@ -119,7 +122,7 @@ Document passportOf(const ResolvedScene& scene, std::size_t place, const Passpor
     Document page;
     page.title = scheme.spec.label;
     addKind(scene, scheme, page);
-    addAction(scheme, page);
+    addAction(scheme, *scene.system, page);
     std::string reason;
     const auto tableau = tableauOf(scene, scheme, reason);
     if (tableau) {

@@ -6,14 +6,17 @@
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/parts/tables.hpp"
+#include "engine/model/phase_mechanics.hpp"
 
 namespace extremal {
 
 std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const ResolvedScheme& scheme,
                                          std::string& reason) {
-    if (!scene.system->isMovedOnlyBy<Mechanical>()) {
+    const bool isHamiltonian = scene.system->isMovedOnlyBy<PhaseMechanics>();
+    if (!isHamiltonian && !scene.system->isMovedOnlyBy<Mechanical>()) {
         reason = scene.system->hasCoordinates()
-                     ? "Runge-Kutta tableaus are for systems that a Lagrangian alone moves, and " +
+                     ? "Runge-Kutta tableaus are for systems that a Lagrangian or a Hamiltonian alone moves, "
+                       "and " +
                            scene.system->id + " is moved by more."
                      : "Runge-Kutta tableaus are for systems with coordinates, and " + scene.system->id +
                            " has none.";
@@ -33,6 +36,11 @@ std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const Resol
     try {
         auto tableau = tables ? tables->tableau(scheme.discretization, scheme.spec.step.value)
                               : own->of(scheme.spec.baseline);
+        if (tables && isHamiltonian) {  // p is in the space of slopes by definition (phase/phase_cell.hpp)
+            Tableau ofAny = *tableau;
+            ofAny.scope = TableauScope::any;
+            tableau = std::make_shared<const Tableau>(std::move(ofAny));
+        }
         if (!scheme.isComposed()) return tableau;
         Tableau whole = composed(*tableau, {scheme.parts.begin(), scheme.parts.end()});
         whole.known = std::max(whole.known, 1e-15);  // of the parts

@@ -49,7 +49,9 @@ std::vector<double> leastChange(const std::vector<double>& J, const Point& wante
 
 }  // namespace
 
-bool hasMovableBodies(const System& system) { return system.hasCoordinates() && system.draw; }
+bool hasMovableBodies(const System& system) {
+    return system.parts.find<Mechanical>() && system.draw;  // a velocity is given by hand
+}
 
 BodyDrag::BodyDrag(std::shared_ptr<const System> system, State state, std::size_t shape)
     : system_(std::move(system)), state_(std::move(state)), shape_(shape) {}

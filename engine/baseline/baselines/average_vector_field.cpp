@@ -84,7 +84,7 @@ private:
             average_.head(d) += b * dq_;
             average_.tail(d) += b * dp_;
             if (!withJacobian) continue;
-            system_ -= (h * b * c) * jacobian_.evaluate(t + c * h, q_.data(), dq_.data());
+            system_ -= (h * b * c) * jacobian_.evaluate(t + c * h, q_.data(), p_.data(), dq_.data());
             ++this->report_.cost.evaluations;
         }
         if (withJacobian) lu_.compute(system_);
@@ -139,8 +139,9 @@ BaselineEntry average_vector_field() {
         return claims;
     }});
     e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
+    e.takes = flowProblems();
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<AverageVectorField>(system.mechanics(), options.step,
+        return makeFlowMethod<AverageVectorField>(flowOf(system), options.step,
                                                   options.settings.integer("points"));
     };
     return e;

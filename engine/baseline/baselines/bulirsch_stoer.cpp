@@ -77,8 +77,9 @@ BaselineEntry bulirsch_stoer() {
               Claims{},
               "smooth forces"};
     e.grid = TimeGrid::landing;
+    e.takes = flowProblems();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        return std::make_unique<BulirschStoer>(system.mechanics(), options);
+        return std::make_unique<BulirschStoer>(flowOf(system), options);
     };
     return e;
 }

@@ -278,14 +278,20 @@ private:
             const double mass = isMomentum ? h * h * inverseMass_(k) : 1 / inverseMass_(k);
             return CoordinateCorrection<double>{
                 h * (now - then).cwiseAbs().maxCoeff(), h * now.cwiseAbs().maxCoeff(),
-                isMomentum ? this->p0_(k) : this->q0_(k), mass, isMomentum ? 0 : h * this->p0_(k)};
+                isMomentum ? this->p0_(k) : this->q0_(k), std::isfinite(mass) ? mass : 0,
+                isMomentum ? 0 : h * this->p0_(k)};
         });
     }
 
-    /// 1/L_vv(k, k) at the start of the step.
+    /// 1/L_vv(k, k) at the start of the step, or H_pp(k, k).
     void findMasses(double t) {
         double value = 0;
         const auto& m = this->mechanics_;
+        if (const PhaseMechanics* const H = hamiltonianOf(m)) {
+            H->hessian(H->model.get(), t, this->q0_.data(), this->p0_.data(), hessian_.data());
+            inverseMass_ = hessian_.diagonal().tail(this->d());
+            return;
+        }
         if (!m.velocity(m.model.get(), t, this->q0_.data(), this->p0_.data(), dq_.data())) return;
         m.jet(m.model.get(), t, this->q0_.data(), dq_.data(), &value, gradient_.data(), hessian_.data());
         for (int k = 0; k < this->d(); ++k) inverseMass_(k) = 1 / hessian_(this->d() + k, this->d() + k);
@@ -352,8 +358,9 @@ BaselineEntry gauss_collocation() {
     e.parts.set(ClaimsOfKeys{[](const Settings& settings) { return claims(settings.integer("stages")); }});
     e.parts.set(
         BaselineTableau{[](const Settings& settings) { return gaussTableau(settings.integer("stages")); }});
+    e.takes = flowProblems();
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<GaussCollocation>(system.mechanics(), options.step,
+        return makeFlowMethod<GaussCollocation>(flowOf(system), options.step,
                                                 options.settings.integer("stages"));
     };
     return e;

@@ -89,7 +89,7 @@ private:
     void assemble(double t, double half) {
         ++this->report_.cost.evaluations;
         system_.setIdentity();
-        system_ -= half * jacobian_.evaluate(t, q_.data(), dq_.data());
+        system_ -= half * jacobian_.evaluate(t, q_.data(), p_.data(), dq_.data());
         lu_.compute(system_);
     }
 
@@ -112,8 +112,9 @@ BaselineEntry implicit_midpoint() {
               ""};
     e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.parts.set(BaselineTableau{[](const Settings&) { return gaussTableau(1); }});
+    e.takes = flowProblems();
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<ImplicitMidpoint>(system.mechanics(), options.step);
+        return makeFlowMethod<ImplicitMidpoint>(flowOf(system), options.step);
     };
     return e;
 }

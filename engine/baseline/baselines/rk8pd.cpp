@@ -139,10 +139,11 @@ BaselineEntry rk8pd() {
               Claims{8, false, false, {}},
               "smooth forces"};
     e.grid = TimeGrid::landing;
+    e.takes = flowProblems();
     e.make = []([[maybe_unused]] const System& system,
                 [[maybe_unused]] const BaselineOptions& options) -> std::unique_ptr<Integrator> {
 #if EXTREMAL_HAS_GSL
-        return std::make_unique<Rk8pd>(system.mechanics(), options);
+        return std::make_unique<Rk8pd>(flowOf(system), options);
 #else
         refuseWithout("rk8pd", "the GNU Scientific Library", "libgsl-dev");
 #endif

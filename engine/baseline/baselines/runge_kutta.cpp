@@ -44,8 +44,9 @@ BaselineEntry runge_kutta() {
     e.parts.set(BaselineTableau{[](const Settings& settings) { return typedRungeKutta(settings)->tableau; }});
     e.parts.set(
         KeyCheck{[](const Settings& settings, Findings& findings) { examine(settings, false, findings); }});
+    e.takes = flowProblems();
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeTableMethod(system.mechanics(), options.step, *typedRungeKutta(options.settings)->tableau);
+        return makeTableMethod(flowOf(system), options.step, *typedRungeKutta(options.settings)->tableau);
     };
     return e;
 }

@@ -30,7 +30,7 @@ BaselineEntry splitting() {
                            "Which begins where there are as many of both; else those that are one more.")},
               Claims{},
               ""};
-    e.takes = Takes::only<Mechanical, Wave>();
+    e.takes = flowProblems().with<Wave>();
     e.parts.set(ClaimsOfKeys{[](const Settings& settings) {
         Claims claims = typedSplitting(settings)->claims;
         claims.conserves.emplace_back("norm");
@@ -45,7 +45,7 @@ BaselineEntry splitting() {
         const auto typed = typedSplitting(options.settings);
         const Splitting& made = typed->splitting;
         if (system.parts.find<Wave>()) return makeWaveSplitting(system, options.step, made);
-        const bool isSeparable = system.mechanics().isSeparable;
+        const bool isSeparable = flowOf(system).isSeparable;
         if (!isSeparable && (made.isNystrom || !made.stages.front().isKick || made.stages.size() % 2 == 0))
             throw InvalidScene(
                 "/baseline",
@@ -55,7 +55,7 @@ BaselineEntry splitting() {
                     ", and only splittings that begin and end with a kick, and have their "
                     "order for every T(p), have another form",
                 "a splitting with one kick more than drifts, or another scheme");
-        return makePartitioned(system.mechanics(), options.step, partitionedStages(made, isSeparable));
+        return makePartitioned(flowOf(system), options.step, partitionedStages(made, isSeparable));
     };
     return e;
 }

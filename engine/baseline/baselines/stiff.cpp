@@ -155,10 +155,11 @@ BaselineEntry stiff() {
               Claims{},
               "smooth forces"};
     e.grid = TimeGrid::landing;
+    e.takes = flowProblems();
     e.make = []([[maybe_unused]] const System& system,
                 [[maybe_unused]] const BaselineOptions& options) -> std::unique_ptr<Integrator> {
 #if EXTREMAL_HAS_SUNDIALS
-        return std::make_unique<Stiff>(system.mechanics(), options);
+        return std::make_unique<Stiff>(flowOf(system), options);
 #else
         refuseWithout("stiff", "SUNDIALS", "libsundials-dev");
 #endif

@@ -113,7 +113,7 @@ private:
     template <class Z>
     const Square* derivatives(const Z& z, Vector& f) {
         report_.cost.evaluations += 2;
-        return hamiltonianFlow(z, f) ? &jacobian_.evaluate(0, z.data(), f.data()) : nullptr;
+        return hamiltonianFlow(z, f) ? &jacobian_.evaluate(0, z.data(), z.data() + d_, f.data()) : nullptr;
     }
     /// K v, where u . K v = u_p . v_q - u_q . v_p.
     void turn(const Vector& v, Vector& turned) const { turned << -v.tail(d_), v.head(d_); }

@@ -14,6 +14,7 @@
 #include "engine/family/frequency.hpp"
 #include "engine/family/galerkin/fitted_order.hpp"
 #include "engine/family/galerkin/mechanism.hpp"
+#include "engine/family/galerkin/phase.hpp"
 #include "engine/family/galerkin/split.hpp"
 #include "engine/family/galerkin/tables.hpp"
 #include "engine/family/galerkin/written.hpp"
@@ -22,6 +23,7 @@
 #include "engine/family/parts/references.hpp"
 #include "engine/family/parts/solver_methods.hpp"
 #include "engine/family/parts/tables.hpp"
+#include "engine/family/parts/written_on_system.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/stability_check.hpp"
@@ -141,6 +143,7 @@ Properties describeGalerkin(const Discretization& discretization) {
 /// At the step itself: functions that depend on it, and their stability.
 void checkGalerkin(const SchemeCase& scheme, Findings& findings) {
     if (Mechanism::isOne(scheme.system.parts)) return galerkin::checkMechanism(scheme, findings);
+    if (scheme.system.parts.find<PhaseMechanics>()) return galerkin::checkPhase(scheme, findings);
     if (galerkin::isSplit(scheme.discretization)) return galerkin::checkSplit(scheme, findings);
     const auto& [space, quadrature, solver] = scheme.discretization;
     if (!dependsOnStep(space)) return;
@@ -208,10 +211,14 @@ Family galerkin() {
         return rules;
     };
     f.written = galerkin::written;
-    f.takes = mechanisms();
-    f.parts.set(SchemeCondition{galerkin::mechanismProblem});
+    f.takes = mechanisms().with<PhaseMechanics>();
+    f.parts.set(SchemeCondition{[](const Discretization& d, const System& system) {
+        const std::string problem = galerkin::phaseProblem(d, system);
+        return problem.empty() ? galerkin::mechanismProblem(d, system) : problem;
+    }});
     f.make = [](const System& system, const Discretization& d, double step) {
         if (Mechanism::isOne(system.parts)) return galerkin::mechanismStep(system, d, step);
+        if (system.parts.find<PhaseMechanics>()) return galerkin::phaseStep(system, d, step);
         if (galerkin::isSplit(d)) {
             const galerkin::Split split = galerkin::splitOf(system, d);
             std::vector<LagrangianTerm<double>> parts =
@@ -231,8 +238,17 @@ Family galerkin() {
         DescribedOnSystem{[](const Discretization& d, const System& system) -> std::optional<Properties> {
             if (Mechanism::isOne(system.parts) && galerkin::mechanismProblem(d, system).empty())
                 return galerkin::describeMechanism(d, system, describeGalerkin);
+            if (const auto* const H = system.parts.find<PhaseMechanics>()) {
+                if (!galerkin::phaseProblem(d, system).empty()) return {};
+                return galerkin::describePhase(d, *H, describeGalerkin);
+            }
             if (!galerkin::isSplit(d)) return {};
             return galerkin::describeSplit(d, system);
+        }});
+    f.parts.set(
+        WrittenOnSystem{[](const Discretization&, const System& system) -> std::optional<WrittenAction> {
+            if (!system.parts.find<PhaseMechanics>()) return {};
+            return galerkin::writtenPhase();
         }});
     f.parts.set(Tables{
         [](const Discretization& d) { return !galerkin::isSplit(d) && !dependsOnStep(d.space); },

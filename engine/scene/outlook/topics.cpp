@@ -57,6 +57,7 @@ constexpr std::pair<std::string_view, const char*> partTopics[] = {
     {"/model/constraints", "mechanisms#keys"},
     {"/model/forces", "mechanisms#keys"},
     {"/model/dissipation", "mechanisms#keys"},
+    {"/model/hamiltonian", "phase-space#keys"},
     {"/model", "models"},
     {"/initial", "scenes#initial"},
     {"/time", "scenes#time-and-rows"},

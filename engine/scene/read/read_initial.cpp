@@ -114,6 +114,11 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
                      q1 ? "give the momentum, the velocity or the second position"
                         : "give the momentum or the velocity");
     if (at && !q1) reader.error("/initial/at", "requires q1", "q1 is the position that much after the start");
+    if (!system.parts.find<Mechanical>() && (v || q1)) {
+        reader.error(v ? "/initial/v" : "/initial/q1",
+                     "does not say the momenta of a model without a Lagrangian", "p, one per coordinate");
+        v = q1 = nullptr;
+    }
     if (q || p || v) result.pOrV.assign(system.coordinates.size(), Number{});
     if (p) result.pOrV = readVector(reader, *p, "/initial/p", system);
     if (v && !p) {

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "engine/core/text/text.hpp"
+#include "engine/model/phase_mechanics.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
@@ -153,7 +154,7 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
             return system ? availableObservables(*system) : idsOf(observableCatalog());
         };
         if (system && isLacking(*system, *name) && dependsOnSymmetry(*name) &&
-            system->isMovedOnlyBy<Mechanical>()) {
+            (system->isMovedOnlyBy<Mechanical>() || system->isMovedOnlyBy<PhaseMechanics>())) {
             reader.warning(pointer,
                            *name + " is not defined for " + scene.model.type +
                                " with these parameters: it has no symmetry; the columns are left out",

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/core/text/text.hpp"
+#include "engine/model/phase_mechanics.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
@@ -146,7 +147,7 @@ bool ViewReader::applies(const View& view) const {
     if (!missing.empty()) {
         const ObservableEntry* observable = findObservable(findView(view.id)->observable);
         if (observable && missing == observable->item.needs && missing == "a symmetry" &&
-            system->isMovedOnlyBy<Mechanical>()) {
+            (system->isMovedOnlyBy<Mechanical>() || system->isMovedOnlyBy<PhaseMechanics>())) {
             reader.warning(
                 pointer,
                 view.id + " stays empty: " + scene.model.type + " with these parameters has no symmetry",

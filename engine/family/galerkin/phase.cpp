@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/family/galerkin/phase.hpp"
+
+#include <utility>
+
+#include "engine/family/galerkin/split.hpp"
+#include "engine/family/table_of.hpp"
+#include "engine/integrator/condensed.hpp"
+#include "engine/phase/phase_step.hpp"
+#include "engine/quadrature/tensor.hpp"
+#include "engine/space/typed.hpp"
+
+namespace extremal::galerkin {
+
+std::string phaseProblem(const Discretization& d, const System& system) {
+    if (!system.parts.find<PhaseMechanics>()) return {};
+    if (isTermRule(d.quadrature) || isSplit(d))
+        return "one space and one rule are needed for a Hamiltonian: rules for terms and spaces for "
+               "coordinates are for a Lagrangian";
+    if (dependsOnStep(d.space)) return "functions that change with the step are for a Lagrangian";
+    return {};
+}
+
+Properties describePhase(const Discretization& d, const PhaseMechanics& mechanics,
+                         Properties (*describe)(const Discretization&)) {
+    Properties p = describe(d);
+    // Kicks and drifts in turn are explicit for kinetic and potential energies alone.
+    p.isExplicit = p.isExplicit && mechanics.isSeparable();
+    return p;
+}
+
+std::unique_ptr<Integrator> phaseStep(const System& system, const Discretization& d, double step) {
+    return makePhaseStep(system.part<PhaseMechanics>(), tableOf(d.space, d.quadrature), step,
+                         solverPolicy(d.solver, system));
+}
+
+WrittenAction writtenPhase() {
+    WrittenAction w;
+    w.meaning =
+        "φ_1, …, φ_m are the functions of the space with φ_a(0) = 0: all but the last vanish at 1 as well, "
+        "and "
+        "φ_m(1) = 1. α_1, …, α_m and β_1, …, β_m are the unknowns of a step, the rule has the weights b_i "
+        "and "
+        "the nodes c_i. q is continuous; p jumps at the ends of the step, where p_0 and p_1 are the "
+        "multipliers.";
+    w.action = {
+        {"S(q_0, q_1) = h Σ_i b_i [P_i·V_i − H(t_0 + c_i h, Q_i, P_i)], stationary over α and β",
+         "S(q_0, q_1) = \\operatorname*{ext}_{\\alpha, \\beta}\\; h \\sum_i b_i \\bigl[ P_i \\cdot V_i - "
+         "H(t_0 + c_i h, Q_i, P_i) \\bigr]"},
+        {"Q_i = q_0 + Σ_a φ_a(c_i) α_a,  h V_i = Σ_a φ_a′(c_i) α_a,  P_i = Σ_a φ_a′(c_i) β_a,  q_1 = q_0 + "
+         "α_m",
+         "Q_i = q_0 + \\sum_a \\varphi_a(c_i)\\, \\alpha_a, \\qquad h V_i = \\sum_a \\varphi_a'(c_i)\\, "
+         "\\alpha_a, \\qquad P_i = \\sum_a \\varphi_a'(c_i)\\, \\beta_a, \\qquad q_1 = q_0 + \\alpha_m"}};
+    w.stationarity = {
+        {"Σ_i b_i φ_a′(c_i) (V_i − ∂H/∂p(i)) = 0,  a = 1, …, m",
+         "\\sum_i b_i\\, \\varphi_a'(c_i) \\Bigl( V_i - \\frac{\\partial H}{\\partial p}\\Big|_i \\Bigr) = "
+         "0, "
+         "\\qquad a = 1, \\dots, m"},
+        {"Σ_i b_i (φ_a′(c_i) P_i − h φ_a(c_i) ∂H/∂q(i)) = φ_a(1) p_1,  p_1 = p_0 − h Σ_i b_i ∂H/∂q(i)",
+         "\\sum_i b_i \\Bigl( \\varphi_a'(c_i) P_i - h\\, \\varphi_a(c_i) \\frac{\\partial H}{\\partial "
+         "q}\\Big|_i \\Bigr) = \\varphi_a(1)\\, p_1, \\qquad p_1 = p_0 - h \\sum_i b_i \\frac{\\partial "
+         "H}{\\partial q}\\Big|_i"}};
+    return w;
+}
+
+void checkPhase(const SchemeCase& scheme, Findings& findings) {
+    const auto& [space, rule, solver] = scheme.discretization;
+    const int degree = space.integer("degree");
+    if (space.type != "polynomial" || degree < 2 || rule.type != "lobatto" || rule.integer("panels") > 1 ||
+        rule.integer("nodes") != degree)
+        return;
+    findings.warning("/quadrature",
+                     std::to_string(degree) + " Lobatto nodes make of degree " + std::to_string(degree) +
+                         " the same steps as of degree " + std::to_string(degree - 1) + ": order " +
+                         std::to_string(2 * degree - 2),
+                     "degree " + std::to_string(degree - 1) + ", or " + std::to_string(degree + 1) +
+                         " nodes for order " + std::to_string(2 * degree));
+}
+
+}  // namespace extremal::galerkin

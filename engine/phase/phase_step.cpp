@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/phase/phase_step.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/core/algebra/exact_sum.hpp"
+#include "engine/core/dimension.hpp"
+#include "engine/phase/phase_cell.hpp"
+#include "engine/phase/phase_newton.hpp"
+#include "engine/solve/correction_size.hpp"
+#include "engine/solve/fixed_point_policy.hpp"
+#include "engine/solve/step_continuation.hpp"
+
+namespace extremal {
+namespace {
+
+template <int D>
+class PhaseStep final : public Integrator {
+    using Vector = Eigen::Matrix<double, D, 1>;
+    using Nodes = Eigen::Matrix<double, Eigen::Dynamic, D>;  ///< node i, coordinate k
+    using View = Eigen::Map<Vector>;
+
+public:
+    PhaseStep(const PhaseMechanics& mechanics, const Table<double>& table, double step,
+              const SolverPolicy& policy)
+        : H_(mechanics),
+          cell_(table),
+          newton_(mechanics, cell_),
+          policy_(policy),
+          tolerance_(toleranceOf<double>(policy)),
+          h_(step) {
+        const int n = cell_.nodes();
+        for (Nodes* nodes : {&K_, &F_, &newK_, &newF_, &Q_, &P_}) *nodes = Nodes::Zero(n, d());
+        for (Vector* v : {&q0_, &p0_, &q1_, &p1_, &q_, &p_, &lostQ_, &lostP_, &inverseMass_})
+            *v = Vector::Zero(d());
+        gradient_.assign(static_cast<std::size_t>(2 * d()), 0);
+        if (H_.isSeparable()) inverseMass_ = Eigen::Map<const Vector>(H_.inverseMasses.data(), d());
+    }
+
+    double stepSize() const override { return h_; }
+    void setStep(double h) override { h_ = h; }
+
+    void begin(State& state) override {
+        state.memory.clear();
+        hasCurve_ = false;
+        newtonSteps_ = 0;
+        lostQ_.setZero();
+        lostP_.setZero();
+    }
+
+    StepReport advance(State& state, double until) override {
+        report_ = StepReport{};
+        report_.step = h_;
+        const View q(state.x.data(), d()), p(state.x.data() + d(), d());
+        const bool isContinued = hasCurve_ && q == q1_ && p == p1_;
+        if (!isContinued) {
+            lostQ_.setZero();
+            lostP_.setZero();
+        }
+        start_ = state.t;
+        q0_ = q;
+        p0_ = p;
+        report_.outcome = solve(isContinued && curveStep_ == h_);
+        hasCurve_ = false;
+        if (report_.outcome != Outcome::converged) return report_;
+        finish();
+        if (!q1_.allFinite() || !p1_.allFinite()) {
+            report_.outcome = Outcome::notFinite;
+            return report_;
+        }
+        View(state.x.data(), d()) = q1_;
+        View(state.x.data() + d(), d()) = p1_;
+        state.t = until;
+        ++state.node;
+        return report_;
+    }
+
+    void denseOutput(double tau, std::span<double> x) const override {
+        View q(x.data(), d()), p(x.data() + d(), d());
+        if (tau <= 0 || tau >= 1) {
+            q = tau <= 0 ? q0_ : q1_;
+            p = tau <= 0 ? p0_ : p1_;
+            return;
+        }
+        std::vector<double> value(static_cast<std::size_t>(cell_.table.space.size)), slope(value.size());
+        cell_.table.space.evaluate(tau, value, slope);
+        const Eigen::VectorXd rates =
+            (Eigen::Map<const Eigen::VectorXd>(value.data(), cell_.table.space.size).transpose() *
+             cell_.table.change * cell_.ofRates)
+                .transpose();
+        const std::vector<double> shares = weightsUpTo(cell_.table, tau);
+        const Eigen::Map<const Eigen::VectorXd> forces(shares.data(), cell_.nodes());
+        q = q0_ + h_ * K_.transpose().lazyProduct(rates);
+        p = p0_ + h_ * F_.transpose().lazyProduct(forces);
+    }
+
+    std::size_t tangentSize() const override { return static_cast<std::size_t>(2 * d()); }
+    bool applyTangent(std::span<double> W) override {
+        placeNodes();
+        return newton_.applyTangent(start_, h_, Q_, P_, W);
+    }
+
+    /// S of the last step.
+    std::span<const Quantity> quantities() const override {
+        static const Quantity action{"action", "", "S", ""};
+        return {&action, 1};
+    }
+    void measure(const State&, double* values) const override {
+        const Nodes rates = cell_.slope * (cell_.ofRates * K_);
+        values[0] = 0;
+        Vector q = q0_, p = p0_;
+        for (int i = 0; i < cell_.nodes(); ++i) {
+            q = q0_ + h_ * (cell_.A.row(i) * K_).transpose();
+            p = cell_.fromStart(i) * p0_ + h_ * (cell_.B.row(i) * F_).transpose();
+            const double energy = H_.energy(H_.model.get(), start_ + cell_.place(i) * h_, q.data(), p.data());
+            values[0] += h_ * cell_.weight(i) * (p.dot(rates.row(i).transpose()) - energy);
+        }
+    }
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<PhaseStep>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(K_, F_, q1_, p1_, lostQ_, lostP_, hasCurve_, curveStep_, newtonSteps_);
+        return true;
+    }
+
+private:
+    enum class Attempt { solved, slow, notFinite, stopped };
+
+    int d() const { return H_.dimension; }
+    bool isSeparable() const { return H_.isSeparable(); }
+
+    Outcome solve(bool isContinued) {
+        if (policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
+            Attempt attempt = Attempt::slow;
+            if (isContinued && cell_.ahead.size() > 0) {
+                newK_.noalias() = cell_.ahead.lazyProduct(K_);
+                newF_.noalias() = cell_.ahead.lazyProduct(F_);
+                attempt = iterate();
+            }
+            // What the last step says of this one may be of no use.
+            if (attempt == Attempt::slow || attempt == Attempt::notFinite) {
+                startFresh();
+                attempt = iterate();
+            }
+            if (attempt == Attempt::solved) return Outcome::converged;
+            if (attempt == Attempt::stopped) return Outcome::stopped;
+            if (policy_.method == SolverMethod::fixedPoint)
+                return attempt == Attempt::slow ? Outcome::diverged : Outcome::notFinite;
+            newtonSteps_ = stepsWithNewton;
+        }
+        if (newtonSteps_ > 0) --newtonSteps_;
+        return solveByNewton(isContinued);
+    }
+
+    /// A constant field.
+    void startFresh() {
+        evaluate(start_, q0_, p0_);
+        for (int k = 0; k < d(); ++k) {
+            newK_.col(k).setConstant(gradient_[static_cast<std::size_t>(d() + k)]);
+            newF_.col(k).setConstant(-gradient_[static_cast<std::size_t>(k)]);
+        }
+    }
+
+    void evaluate(double t, const Vector& q, const Vector& p) {
+        H_.gradient(H_.model.get(), t, q.data(), p.data(), gradient_.data());
+        ++report_.cost.evaluations;
+    }
+    /// q and p at the nodes, from K and F.
+    void placeNodes() {
+        if (isSeparable()) {
+            Q_.noalias() = cell_.twice.lazyProduct(F_);
+            for (int k = 0; k < d(); ++k)
+                Q_.col(k) = (h_ * inverseMass_(k) * (p0_(k) * cell_.drift + h_ * Q_.col(k))).array() + q0_(k);
+        } else {
+            Q_.noalias() = cell_.A.lazyProduct(K_);
+            for (int k = 0; k < d(); ++k) Q_.col(k) = (h_ * Q_.col(k)).array() + q0_(k);
+        }
+        P_.noalias() = cell_.B.lazyProduct(F_);
+        for (int k = 0; k < d(); ++k) P_.col(k) = h_ * P_.col(k) + p0_(k) * cell_.fromStart;
+    }
+    /// newK and newF at the nodes as they are placed.
+    void evaluateNodes() {
+        for (int i = 0; i < cell_.nodes(); ++i) {
+            q_ = Q_.row(i).transpose();
+            p_ = P_.row(i).transpose();
+            evaluate(start_ + cell_.place(i) * h_, q_, p_);
+            for (int k = 0; k < d(); ++k) {
+                newK_(i, k) = gradient_[static_cast<std::size_t>(d() + k)];
+                newF_(i, k) = -gradient_[static_cast<std::size_t>(k)];
+            }
+        }
+    }
+
+    /// From newK and newF, and back to K and F.
+    Attempt iterate() {
+        using Verdict = FixedPointPolicy<double>::Verdict;
+        constexpr int most = 200;
+        FixedPointPolicy<double> policy(tolerance_);
+        for (int sweep = 0; sweep < most; ++sweep) {
+            if (stop().stop_requested()) return Attempt::stopped;
+            K_.swap(newK_);
+            F_.swap(newF_);
+            placeNodes();
+            evaluateNodes();
+            ++report_.cost.iterations;
+            report_.residual = change();
+            const Verdict verdict = policy.judge(report_.residual);
+            if (verdict == Verdict::notFinite) return Attempt::notFinite;
+            if (verdict == Verdict::slow) return Attempt::slow;
+            if (verdict == Verdict::converged) {
+                K_.swap(newK_);
+                F_.swap(newF_);
+                return Attempt::solved;
+            }
+        }
+        return Attempt::slow;
+    }
+
+    /// What the last sweep has changed, each coordinate against its own increments and the round-off of its
+    /// value.
+    double change() const {
+        const double h = std::abs(h_);
+        double worst = 0;
+        const auto look = [&](const auto& now, const auto& then, double value) {
+            const double size = h * (now - then).cwiseAbs().maxCoeff(),
+                         increments = h * std::max(now.cwiseAbs().maxCoeff(), then.cwiseAbs().maxCoeff());
+            worst = std::max(worst, std::isfinite(size) ? relativeCorrection(size, increments, value)
+                                                        : std::numeric_limits<double>::infinity());
+        };
+        for (int k = 0; k < d(); ++k) {
+            look(newF_.col(k), F_.col(k), p0_(k));
+            if (!isSeparable()) look(newK_.col(k), K_.col(k), q0_(k));
+        }
+        return worst;
+    }
+
+    Outcome solveByNewton(bool isContinued) {
+        using Result = PhaseNewton::Result;
+        const auto attempt = [&](double h, bool isFresh) {
+            if (isFresh) {
+                startFresh();
+                newton_.startFrom(h, newK_, newF_);
+            }
+            return newton_.solve(start_, h, q0_, p0_, tolerance_, policy_.maxIterations, stop(), report_);
+        };
+        Result result = Result::diverged;
+        if (isContinued && cell_.ahead.size() > 0) {
+            newK_.noalias() = cell_.ahead.lazyProduct(K_);
+            newF_.noalias() = cell_.ahead.lazyProduct(F_);
+            newton_.startFrom(h_, newK_, newF_);
+            result = attempt(h_, false);
+        }
+        if (result != Result::converged && result != Result::stopped) result = attempt(h_, true);
+        if (result != Result::converged && result != Result::stopped) {
+            StepContinuation<double> continuation;
+            const bool hasArrived = continuation.follow(newton_.unknowns(), [&](double part, bool isFresh) {
+                return !stop().stop_requested() && attempt(part * h_, isFresh) == Result::converged;
+            });
+            if (hasArrived) result = Result::converged;
+        }
+        if (stop().stop_requested() && result != Result::converged) return Outcome::stopped;
+        switch (result) {
+            case Result::stopped:
+                return Outcome::stopped;
+            case Result::singular:
+                return Outcome::singular;
+            case Result::notFinite:
+                return Outcome::notFinite;
+            case Result::diverged:
+                return Outcome::diverged;
+            case Result::converged:
+                break;
+        }
+        newton_.place(q0_, p0_, Q_, P_);
+        evaluateNodes();
+        K_.swap(newK_);
+        F_.swap(newF_);
+        return Outcome::converged;
+    }
+
+    /// (q_1, p_1) with what the last sums have lost.
+    void finish() {
+        for (int k = 0; k < d(); ++k) {
+            const double q = isSeparable() ? inverseMass_(k) * endDrift(k) : cell_.endRates.dot(K_.col(k)),
+                         p = cell_.weight.dot(F_.col(k));
+            q1_(k) = addExactly(q0_(k), h_ * q + lostQ_(k), lostQ_(k));
+            p1_(k) = addExactly(p0_(k), h_ * p + lostP_(k), lostP_(k));
+        }
+        hasCurve_ = true;
+        curveStep_ = h_;
+    }
+    /// endRates . p at the nodes, from F.
+    double endDrift(int k) {
+        return p0_(k) * cell_.endRates.dot(cell_.fromStart) +
+               h_ * cell_.endRates.dot(cell_.B.lazyProduct(F_.col(k)));
+    }
+
+    PhaseMechanics H_;
+    PhaseCell cell_;
+    PhaseNewton newton_;
+    SolverPolicy policy_;
+    double tolerance_, h_;
+    Nodes K_, F_, newK_, newF_;  ///< H_p and -H_q at the nodes
+    Nodes Q_, P_;
+    Vector q0_, p0_, q1_, p1_, q_, p_, lostQ_, lostP_, inverseMass_;
+    std::vector<double> gradient_;
+    double start_ = 0, curveStep_ = 0;
+    bool hasCurve_ = false;
+    int newtonSteps_ = 0;  ///< steps for which Newton's method is preferred
+    StepReport report_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> makePhaseStep(const PhaseMechanics& mechanics, const Table<double>& table,
+                                          double step, const SolverPolicy& policy) {
+    return withDimension(mechanics.dimension, [&](auto d) -> std::unique_ptr<Integrator> {
+        return std::make_unique<PhaseStep<decltype(d)::value>>(mechanics, table, step, policy);
+    });
+}
+
+}  // namespace extremal
