@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/model/phase_mechanics.hpp"
+
 namespace extremal {
 
 Observer observeQuantities(const ObserveContext& context, const std::vector<Column>& columns) {
@@ -33,7 +35,7 @@ ObservableEntry variationObservable(CatalogItem item, std::vector<Column> column
     ObservableEntry e;
     e.item = std::move(item);
     e.variations = plan;
-    e.takes = Takes::only<Mechanical, Body>();
+    e.takes = Takes::only<Mechanical, Body, PhaseMechanics>();
     e.bind = [columns = std::move(columns), isDefect](const ObserveContext& context) {
         Observer o = observeQuantities(context, columns);
         if (isDefect) o.extreme = 0;

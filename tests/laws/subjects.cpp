@@ -139,7 +139,7 @@ std::vector<const Preset*> onePerModel() {
     std::set<std::string> seen;
     for (const Preset& preset : presets()) {
         const std::string model = modelOf(preset.json);
-        const bool isTyped = model == "lagrangian";
+        const bool isTyped = model == "lagrangian" || model == "hamiltonian";
         if (seen.insert(isTyped ? std::string(preset.id) : model).second) all.push_back(&preset);
     }
     return all;

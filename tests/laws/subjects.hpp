@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Systems as subjects of laws: where they start, how large and how fast they are, where they go. There is
-/// one for each model of the catalogue, from its first preset (typed Lagrangians from each of theirs), and
+/// one for each model of the catalogue, from its first preset (typed ones from each of theirs), and
 /// small wave functions in place of those of the presets.
 #pragma once
 
@@ -47,7 +47,7 @@ SubjectKind kindOfSubject(const System& system);
 
 std::vector<Subject> everySubject(SubjectKind kind);
 
-/// The first preset of each model, and every one of a typed Lagrangian.
+/// The first preset of each model, and every one of a typed one.
 std::vector<const Preset*> onePerModel();
 
 }  // namespace extremal::laws

@@ -2,6 +2,7 @@
 /// The trace of the product of all tangent maps since the start: of a motion that is back at its start after
 /// whole steps, the sum of its Floquet multipliers. A coordinate in which the motion does not move has a pair
 /// of its own, with a trace of its own.
+#include "engine/model/phase_mechanics.hpp"
 #include "engine/observe/quantity_observable.hpp"
 
 namespace extremal::observables {
@@ -18,7 +19,7 @@ ObservableEntry floquet() {
          {},
          "a scheme with a tangent map"},
         {}, {.map = true}, false);
-    e.takes = Takes::only<Mechanical>();
+    e.takes = flowProblems();
     e.bind = [](const ObserveContext& context) {
         std::vector<Column> columns{{"floquet_trace", "tr P", "", {}, {}}};
         for (const Coordinate& c : context.system.coordinates)

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/integrator/with_exponents.hpp"
+#include "engine/model/phase_mechanics.hpp"
 #include "engine/observe/quantity_observable.hpp"
 
 namespace extremal::observables {
@@ -18,7 +19,7 @@ ObservableEntry lyapunov_spectrum() {
         {},
         "at most 32 coordinates"};
     e.variations = {.frame = true};
-    e.takes = Takes::only<Mechanical>();
+    e.takes = flowProblems();
     e.suits = [](const System& system) { return 2 * system.coordinates.size() <= mostExponents; };
     e.bind = [](const ObserveContext& context) {
         std::vector<Column> columns;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The functions of one step, with the nodes and weights of the rule; of fields and wave functions those in
 /// space as well.
+#include "engine/model/mechanisms.hpp"
 #include "engine/view/catalog.hpp"
 #include "engine/view/with_equations.hpp"
 
@@ -17,6 +18,7 @@ ViewEntry basis() {
                              "functions of time over a step, or of space over an element or the domain")}),
             .recipe = OwnRecipe{"basis"},
             .scales = noScales,
+            .takes = plainProblemsAndHamiltonians(),
             .missing = functionsMissing,
             .unsuitable =
                 [](const Discretization& d) {

@@ -64,7 +64,8 @@ std::vector<ViewEntry> errors_against_time() {
                       {againstField()}),
          .recipe = ErrorAgainstTime{"reversibility", "|x back − x|", 1},
          .scales = logAgainstTime,
-         .observable = "reversibility"},
+         .observable = "reversibility",
+         .takes = plainProblemsAndHamiltonians()},
         {.item = viewItem("transported-error", "Transported error",
                           "what the local errors have become, carried along by the tangent maps of the "
                           "steps, logarithmic, against time or steps",
@@ -77,7 +78,8 @@ std::vector<ViewEntry> errors_against_time() {
                           {againstField()}),
          .recipe = ErrorAgainstTime{"volume", "|det M − 1|", 1},
          .scales = logAgainstTime,
-         .observable = "volume"},
+         .observable = "volume",
+         .takes = plainProblemsAndHamiltonians()},
         {.item = viewItem("discrete-energy", "Discrete energy error",
                           "|E_d − E_d(0)| of discretizations against time or steps, logarithmic: constant "
                           "where the times are unknowns; the energy at the nodes is another thing",
@@ -92,14 +94,16 @@ std::vector<ViewEntry> errors_against_time() {
                       {againstField()}),
          .recipe = ErrorAgainstTime{"symplecticity", "max |MᵀJM − J|", 1},
          .scales = logAgainstTime,
-         .observable = "symplecticity"},
+         .observable = "symplecticity",
+         .takes = plainProblemsAndHamiltonians()},
         {.item = viewItem("symplecticity-accumulated", "Symplecticity, accumulated",
                           "largest entry of PᵀJP − J against time or steps, logarithmic, over the square of "
                           "that of P, the product of the tangent maps of all steps",
                           {againstField()}),
          .recipe = ErrorAgainstTime{"symplecticity_accumulated", "|PᵀJP − J|/|P|²", 1},
          .scales = logAgainstTime,
-         .observable = "symplecticity"},
+         .observable = "symplecticity",
+         .takes = plainProblemsAndHamiltonians()},
     };
 }
 
