@@ -50,7 +50,8 @@ std::vector<double> leastChange(const std::vector<double>& J, const Point& wante
 }  // namespace
 
 bool hasMovableBodies(const System& system) {
-    return system.parts.find<Mechanical>() && system.draw;  // a velocity is given by hand
+    const Mechanical* const lagrangian = system.parts.find<Mechanical>();  // of a velocity given by hand
+    return lagrangian && system.draw;
 }
 
 BodyDrag::BodyDrag(std::shared_ptr<const System> system, State state, std::size_t shape)

@@ -114,7 +114,8 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
                      q1 ? "give the momentum, the velocity or the second position"
                         : "give the momentum or the velocity");
     if (at && !q1) reader.error("/initial/at", "requires q1", "q1 is the position that much after the start");
-    if (!system.parts.find<Mechanical>() && (v || q1)) {
+    const Mechanical* const lagrangian = system.parts.find<Mechanical>();  // whose L_v is the momentum
+    if (!lagrangian && (v || q1)) {
         reader.error(v ? "/initial/v" : "/initial/q1",
                      "does not say the momenta of a model without a Lagrangian", "p, one per coordinate");
         v = q1 = nullptr;
