@@ -104,7 +104,8 @@ public:
 
     std::size_t tangentSize() const override { return static_cast<std::size_t>(2 * d()); }
     bool applyTangent(std::span<double> W) override {
-        placeNodes();
+        placePlaces();
+        placeMomenta();
         return newton_.applyTangent(start_, h_, Q_, P_, W);
     }
 
@@ -173,8 +174,8 @@ private:
         H_.gradient(H_.model.get(), t, q.data(), p.data(), gradient_.data());
         ++report_.cost.evaluations;
     }
-    /// q and p at the nodes, from K and F.
-    void placeNodes() {
+    /// q at the nodes, from K, or where the rates are momenta over masses from F.
+    void placePlaces() {
         if (isSeparable()) {
             Q_.noalias() = cell_.twice.lazyProduct(F_);
             for (int k = 0; k < d(); ++k)
@@ -183,18 +184,21 @@ private:
             Q_.noalias() = cell_.A.lazyProduct(K_);
             for (int k = 0; k < d(); ++k) Q_.col(k) = (h_ * Q_.col(k)).array() + q0_(k);
         }
+    }
+    void placeMomenta() {
         P_.noalias() = cell_.B.lazyProduct(F_);
         for (int k = 0; k < d(); ++k) P_.col(k) = h_ * P_.col(k) + p0_(k) * cell_.fromStart;
     }
-    /// newK and newF at the nodes as they are placed.
+    /// newF, and newK where it is not p over the masses, at the nodes as they are placed.
     void evaluateNodes() {
+        p_ = p0_;
         for (int i = 0; i < cell_.nodes(); ++i) {
             q_ = Q_.row(i).transpose();
-            p_ = P_.row(i).transpose();
+            if (!isSeparable()) p_ = P_.row(i).transpose();
             evaluate(start_ + cell_.place(i) * h_, q_, p_);
             for (int k = 0; k < d(); ++k) {
-                newK_(i, k) = gradient_[static_cast<std::size_t>(d() + k)];
                 newF_(i, k) = -gradient_[static_cast<std::size_t>(k)];
+                if (!isSeparable()) newK_(i, k) = gradient_[static_cast<std::size_t>(d() + k)];
             }
         }
     }
@@ -208,7 +212,8 @@ private:
             if (stop().stop_requested()) return Attempt::stopped;
             K_.swap(newK_);
             F_.swap(newF_);
-            placeNodes();
+            placePlaces();
+            if (!isSeparable()) placeMomenta();
             evaluateNodes();
             ++report_.cost.iterations;
             report_.residual = change();
@@ -293,6 +298,10 @@ private:
                          p = cell_.weight.dot(F_.col(k));
             q1_(k) = addExactly(q0_(k), h_ * q + lostQ_(k), lostQ_(k));
             p1_(k) = addExactly(p0_(k), h_ * p + lostP_(k), lostP_(k));
+        }
+        if (isSeparable()) {  // K for dense output
+            placeMomenta();
+            for (int k = 0; k < d(); ++k) K_.col(k) = inverseMass_(k) * P_.col(k);
         }
         hasCurve_ = true;
         curveStep_ = h_;
