@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/passport/scene_formula.hpp"
 
+#include "engine/model/parts/written_form.hpp"
 #include "engine/model/typed/typed_model.hpp"
 
 namespace extremal {
@@ -10,6 +11,8 @@ std::optional<typed::Formula> formulaOf(const ResolvedScene& scene) {
     const ModelEntry* const entry = findModel(model.type);
     if (!entry) return {};
     if (model.find("lagrangian")) return typed::formulaOf(model);
+    if (const auto* const form = scene.system->parts.find<WrittenForm>())
+        return typed::formulaOf(form->settings);
     if (!entry->lagrangian) return {};
     typed::Formula formula;
     // Coordinates that are numbered, "1", "2", .., are q1, q2, ..

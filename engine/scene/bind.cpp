@@ -8,6 +8,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/mechanism/mechanism_start.hpp"
+#include "engine/model/parts/written_form.hpp"
 #include "engine/scene/outlook/two_positions.hpp"
 
 namespace extremal {
@@ -28,11 +29,15 @@ State givenState(const Scene& scene, const System& system) {
     if (scene.initial.second == Initial::Second::position) return exactStart(scene, system);
     const auto d = static_cast<std::size_t>(system.dimension());
     state.x.assign(2 * d, 0);
+    const auto* const form = system.parts.find<WrittenForm>();
     for (std::size_t i = 0; i < d; ++i) {
-        state.x[i] = scene.initial.q[i].value;
+        state.x[i] = scene.initial.q.empty() && form ? form->q[i] : scene.initial.q[i].value;
         if (i < scene.initial.pOrV.size()) state.x[d + i] = scene.initial.pOrV[i].value;
     }
-    if (scene.initial.second == Initial::Second::velocity) {
+    const bool isOfModel = scene.initial.second == Initial::Second::none && form;
+    if (isOfModel)
+        std::copy(form->v.begin(), form->v.end(), state.x.begin() + static_cast<std::ptrdiff_t>(d));
+    if (scene.initial.second == Initial::Second::velocity || isOfModel) {
         const std::vector<double> v(state.x.begin() + static_cast<std::ptrdiff_t>(d), state.x.end());
         std::vector<double> gradient(2 * d);
         const auto& m = system.mechanics();
@@ -44,8 +49,18 @@ State givenState(const Scene& scene, const System& system) {
 
 State initialState(const Scene& scene, const System& system) {
     State state = givenState(scene, system);
-    putOnConstraints(system, state, scene.initial.isProjected);
-    requireOutsideWalls(system, state);
+    try {
+        putOnConstraints(system, state, scene.initial.isProjected);
+        requireOutsideWalls(system, state);
+    } catch (const InvalidScene& e) {
+        // Where the model has keys of its own, what is wrong is at these.
+        std::vector<Problem> problems = e.problems();
+        for (Problem& p : problems) {
+            p.pointer = originIn(system.parts, p.pointer);
+            if (scene.initial.q.empty() && p.pointer == "/initial/q") p.pointer = "/initial";
+        }
+        throw InvalidScene(std::move(problems));
+    }
     return state;
 }
 

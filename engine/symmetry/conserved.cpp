@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/model/parts/written_form.hpp"
 #include "engine/symmetry/candidates.hpp"
 #include "engine/symmetry/symmetry.hpp"
 
@@ -11,7 +12,8 @@ namespace {
 
 /// Built-in systems say what they conserve; the columns of their files do not change by what a search finds.
 bool isSearched(const System& system) {
-    return system.isMovedOnlyBy<Mechanical>() && (system.momenta.empty() || system.id == "lagrangian");
+    return system.isMovedOnlyBy<Mechanical>() &&
+           (system.momenta.empty() || system.id == "lagrangian" || system.parts.find<WrittenForm>());
 }
 
 bool isKnown(const System& system, const std::string& name) {

@@ -299,8 +299,13 @@ bool checkStart(Reader& reader, ResolvedScene& scene) {
         prefix = "/model";
         if (entry && entry->checkInitial && reader.errors.empty())
             entry->checkInitial(scene.scene.model, *scene.system, scene.initial);
+        const State given = givenState(scene.scene, *scene.system);
+        // Where nothing was said of velocities, motors give them.
+        const bool isAtRest = scene.scene.initial.second == Initial::Second::none &&
+                              std::all_of(given.x.begin() + scene.system->dimension(), given.x.end(),
+                                          [](double p) { return p == 0; });
         const std::string note =
-            projectionNote(*scene.system, givenState(scene.scene, *scene.system), scene.initial);
+            isAtRest ? std::string() : projectionNote(*scene.system, given, scene.initial);
         if (!note.empty())
             reader.warning("/initial", note, "velocities along the constraints", {}, "mechanisms");
         return true;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/core/text/text.hpp"
+#include "engine/model/parts/written_form.hpp"
 #include "engine/scene/outlook/two_positions.hpp"
 #include "engine/scene/read/json.hpp"
 #include "engine/scene/read/pointer.hpp"
@@ -85,6 +86,8 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
     if (system.start) return readGiven(reader, initial, system, *entry, scene.start.value, result);
     // The example of a model whose coordinates are the user's own fits only some; the others start from zero.
     const std::size_t d = system.coordinates.size();
+    const bool saysItself = system.parts.find<WrittenForm>() != nullptr;
+    if (saysItself && !initial) return;
     const bool fits = entry->exampleQ.size() == d;
     result.q = fits ? literals(entry->exampleQ) : std::vector<Number>(d);
     result.second = Initial::Second::momentum;
@@ -102,8 +105,10 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
     const Value* v = initial->find("v");
     if (q)
         result.q = readVector(reader, *q, "/initial/q", system);
-    else
+    else if (!saysItself)
         reader.warning("/initial/q", "is missing: the model's example is taken");
+    else
+        result.q.clear();
     const Value* q1 = initial->find("q1");
     const Value* at = initial->find("at");
     std::vector<std::string> given;
@@ -120,13 +125,17 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
                      "does not say the momenta of a model without a Lagrangian", "p, one per coordinate");
         v = q1 = nullptr;
     }
-    if (q || p || v) result.pOrV.assign(system.coordinates.size(), Number{});
+    if (saysItself) result.second = Initial::Second::none;
+    if (saysItself) result.pOrV.clear();
+    if (!saysItself && (q || p || v)) result.pOrV.assign(system.coordinates.size(), Number{});
     if (p) result.pOrV = readVector(reader, *p, "/initial/p", system);
+    if (p) result.second = Initial::Second::momentum;
     if (v && !p) {
         result.second = Initial::Second::velocity;
         result.pOrV = readVector(reader, *v, "/initial/v", system);
     }
     if (!q1 || given.size() > 1) return;
+    if (result.q.empty()) result.q = literals(system.parts.find<WrittenForm>()->q);
     result.second = Initial::Second::position;
     result.pOrV = readVector(reader, *q1, "/initial/q1", system);
     if (at) result.at = reader.number(*at, "/initial/at", Limits::positive());

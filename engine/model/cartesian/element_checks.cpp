@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/model/cartesian/element_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/text/text.hpp"
+#include "engine/model/typed/formula.hpp"
+
+namespace extremal::cartesian {
+namespace {
+
+/// Places that are nearer than this, in units of the mechanism, are one.
+constexpr double samePlace = 1e-12;
+
+class Checks {
+public:
+    explicit Checks(const Elements& elements) : all_(elements) {
+        for (std::size_t k = 0; k < all_.points.size(); ++k)
+            for (const double x : placeAtStart(all_, k)) size_ = std::max(size_, std::abs(x));
+    }
+
+    std::vector<Problem> found() {
+        std::size_t free = all_.bodies.size();
+        for (const PointElement& p : all_.points) free += p.isFree() ? 1 : 0;
+        if (free == 0)
+            add("/points", "there is nothing that moves",
+                all_.points.empty() ? "add a point with a mass" : "give a point a mass and do not fix it");
+        if (2 * free > typed::maxCoordinates)
+            add("/points", "has " + std::to_string(free) + " points and bodies that move, the limit is " +
+                               std::to_string(typed::maxCoordinates / 2));
+        for (const RodElement& rod : all_.rods) checkRod(rod);
+        for (const Link& pin : all_.pins) checkEnds(pin, "/pins/" + pin.name, "pin");
+        for (const SpringElement& s : all_.springs) checkSpring(s);
+        for (const DamperElement& d : all_.dampers) checkDamper(d);
+        for (const SliderElement& s : all_.sliders) {
+            if (all_.points[s.point].isFixed)
+                add("/sliders/" + s.name + "/point", "the point " + all_.points[s.point].name + " is fixed",
+                    "a point that moves");
+            if (s.direction.x.value == 0 && s.direction.y.value == 0)
+                add("/sliders/" + s.name + "/direction", "must not be 0", "[1, 0] is horizontal");
+        }
+        for (const MotorElement& m : all_.motors) checkMotor(m);
+        for (const WallElement& w : all_.walls) checkWall(w);
+        return std::move(problems_);
+    }
+
+private:
+    void add(std::string pointer, std::string message, std::string hint = {}) {
+        problems_.push_back({std::move(pointer), std::move(message), std::move(hint)});
+    }
+    const std::string& nameOf(std::size_t point) const { return all_.points[point].name; }
+
+    bool checkEnds(const Link& link, const std::string& pointer, const std::string& what) {
+        const PointElement &from = all_.points[link.from], &to = all_.points[link.to];
+        if (link.from == link.to)
+            add(pointer, "both ends are the point " + from.name, "two points");
+        else if (from.isFixed && to.isFixed)
+            add(pointer, "both ends are fixed: the " + what + " changes nothing", "leave it out");
+        else if (from.body && from.body == to.body)
+            add(pointer, "both ends belong to the body " + all_.bodies[*from.body].name, "leave it out");
+        else
+            return true;
+        return false;
+    }
+    void checkRod(const RodElement& rod) {
+        const std::string pointer = "/rods/" + rod.name;
+        if (!checkEnds(rod, pointer, "rod")) return;
+        if (!rod.length && lengthAtStart(all_, rod) <= samePlace * std::max(size_, 1e-300))
+            add(pointer,
+                "has the length 0: " + nameOf(rod.from) + " and " + nameOf(rod.to) + " are at one place",
+                "move one of them, or use a pin");
+    }
+    void checkSpring(const SpringElement& spring) {
+        const std::string pointer = "/springs/" + spring.name;
+        if (!checkEnds(spring, pointer, "spring")) return;
+        const double now = lengthAtStart(all_, spring), rest = spring.length ? spring.length->value : now;
+        if (now <= samePlace * std::max(size_, 1e-300) && rest > 0)
+            add(pointer, "has its ends at one place at the start, where its direction is not known",
+                "move one of them, or \"length\": 0");
+    }
+    void checkDamper(const DamperElement& damper) {
+        const std::string pointer = "/dampers/" + damper.name;
+        if (damper.body) return;
+        if (!damper.to) {
+            if (all_.points[*damper.from].isFixed)
+                add(pointer, "the point " + nameOf(*damper.from) + " is fixed: it damps nothing",
+                    "a point that moves, or a second one");
+            return;
+        }
+        const Link link{damper.name, *damper.from, *damper.to};
+        if (checkEnds(link, pointer, "damper") &&
+            lengthAtStart(all_, link) <= samePlace * std::max(size_, 1e-300))
+            add(pointer, "has its ends at one place at the start, where its direction is not known",
+                "move one of them");
+    }
+    void checkMotor(const MotorElement& motor) {
+        if (!motor.rod) return;
+        const RodElement& rod = all_.rods[*motor.rod];
+        if (!fixedEnd(all_, rod))
+            add("/motors/" + motor.name + "/rod", "the rod " + rod.name + " has no fixed end to turn about",
+                "fix one of " + nameOf(rod.from) + " and " + nameOf(rod.to) + ", or turn a body");
+    }
+    void checkWall(const WallElement& wall) {
+        const std::string pointer = "/walls/" + wall.name;
+        using Shape = WallElement::Shape;
+        if (wall.shape == Shape::line && wall.second.x.value == 0 && wall.second.y.value == 0)
+            return add(pointer + "/normal", "must not be 0", "[0, 1] is a floor");
+        if (wall.shape == Shape::box &&
+            (wall.first.x.value == wall.second.x.value || wall.first.y.value == wall.second.y.value))
+            return add(pointer + "/opposite", "the box has no area", "two opposite corners");
+        for (const std::size_t k : wall.points) {
+            if (all_.points[k].isFixed) {
+                add(pointer + "/points", "the point " + nameOf(k) + " is fixed", "points that move");
+                continue;
+            }
+            for (const Side& side : sidesOf(wall)) {
+                const double gap = side.gap(placeAtStart(all_, k));
+                if (gap >= -samePlace * std::max(size_, 1.0)) continue;
+                add(pointer,
+                    "the point " + nameOf(k) + " starts inside the wall, at a gap of " + formatNumber(gap, 3),
+                    wall.shape == Shape::disc  ? "move it, or change \"inside\""
+                    : wall.shape == Shape::box ? "move it into the box"
+                                               : "move it, or turn the normal around");
+                break;
+            }
+        }
+    }
+
+    const Elements& all_;
+    double size_ = 0;
+    std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> geometryProblems(const Elements& elements) { return Checks(elements).found(); }
+
+double Side::gap(const std::array<double, 2>& place) const {
+    const double x = place[0] - centre[0], y = place[1] - centre[1];
+    return radius > 0 ? sign * (x * x + y * y - radius * radius) / (2 * radius)
+                      : normal[0] * x + normal[1] * y;
+}
+
+std::vector<Side> sidesOf(const WallElement& wall) {
+    const std::array<double, 2> first{wall.first.x.value, wall.first.y.value},
+        second{wall.second.x.value, wall.second.y.value};
+    if (wall.shape == WallElement::Shape::disc)
+        return {{"", first, {}, wall.radius.value, wall.isInside ? -1.0 : 1.0}};
+    if (wall.shape == WallElement::Shape::line) {
+        const double length = std::hypot(second[0], second[1]);
+        return {{"", first, {second[0] / length, second[1] / length}}};
+    }
+    const std::array<double, 2> low{std::min(first[0], second[0]), std::min(first[1], second[1])},
+        high{std::max(first[0], second[0]), std::max(first[1], second[1])};
+    return {
+        {"_left", low, {1, 0}}, {"_right", high, {-1, 0}}, {"_bottom", low, {0, 1}}, {"_top", high, {0, -1}}};
+}
+
+}  // namespace extremal::cartesian

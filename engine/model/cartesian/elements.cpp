@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/model/cartesian/elements.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text/expression.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/model/cartesian/element_checks.hpp"
+#include "engine/model/cartesian/element_reader.hpp"
+
+namespace extremal::cartesian {
+namespace {
+
+class Reading {
+public:
+    explicit Reading(const Settings& settings) : settings_(settings) {
+        if (const Value* const parameters = settings.find("parameters"); parameters && parameters->isObject())
+            for (const auto& [name, value] : parameters->asObject())
+                all_.parameters.emplace_back(name, value.asNumber());
+        // Its formula is one in parameters, which have their values already.
+        all_.gravity = {settings.number("gravity"), {}};
+    }
+
+    Elements read() {
+        checkNames();
+        each("bodies", [&](const ElementReader& r) { readBody(r); });
+        each("points", [&](const ElementReader& r) { readPoint(r); });
+        each("rods", [&](const ElementReader& r) {
+            all_.rods.push_back({link(r), r.numberIfGiven("length")});
+        });
+        each("pins", [&](const ElementReader& r) { all_.pins.push_back(link(r)); });
+        each("sliders", [&](const ElementReader& r) {
+            all_.sliders.push_back({r.name(), point(r, "point"), r.vector("through"), r.vector("direction")});
+        });
+        each("springs", [&](const ElementReader& r) {
+            all_.springs.push_back(
+                {link(r), r.number("stiffness"), r.number("damping"), r.numberIfGiven("length")});
+        });
+        each("dampers", [&](const ElementReader& r) { readDamper(r); });
+        each("motors", [&](const ElementReader& r) { readMotor(r); });
+        each("walls", [&](const ElementReader& r) { readWall(r); });
+        if (problems_.empty()) problems_ = geometryProblems(all_);
+        if (!problems_.empty()) throw InvalidScene(std::move(problems_));
+        return std::move(all_);
+    }
+
+private:
+    const Value::Object& of(const char* key) {
+        static const Value::Object empty;
+        const Value* const value = settings_.find(key);
+        return value && value->isObject() ? value->asObject() : empty;
+    }
+    template <class Read>
+    void each(const char* key, Read readOne) {
+        const ElementKind& kind = *findKind(key);
+        for (const auto& [name, given] : of(key))
+            if (given.isObject())
+                readOne(ElementReader(kind, name, given, all_.parameters, problems_));
+            else
+                ElementReader(kind, name, given, all_.parameters, problems_);
+    }
+
+    /// Every element has a name of its own, which a formula could have.
+    void checkNames() {
+        std::map<std::string, std::string> taken;
+        for (const auto& [name, value] : all_.parameters)
+            if (const std::string problem = nameProblem(name); !problem.empty())
+                problems_.push_back({"/parameters/" + name, "the name \"" + name + "\" " + problem, {}});
+        for (const ElementKind& kind : elementKinds()) {
+            const Value* const value = settings_.find(kind.key);
+            if (value && !value->isNull() && !value->isObject())
+                problems_.push_back({"/" + kind.key, "needs a name for each " + kind.title,
+                                     "{\"" + kind.title + "1\": {..}}"});
+            for (const auto& [name, given] : of(kind.key.c_str())) {
+                const std::string pointer = "/" + kind.key + "/" + name;
+                if (const std::string problem = nameProblem(name); !problem.empty())
+                    problems_.push_back({pointer, "the name \"" + name + "\" " + problem,
+                                         "a letter, then letters, digits and _"});
+                const auto [there, isNew] = taken.emplace(name, kind.title);
+                if (!isNew)
+                    problems_.push_back(
+                        {pointer, "the name \"" + name + "\" is that of a " + there->second + " as well",
+                         "every element has a name of its own"});
+                if (kind.key == "points") pointNames_.push_back(name);
+                if (kind.key == "bodies") bodyNames_.push_back(name);
+                if (kind.key == "rods") rodNames_.push_back(name);
+            }
+        }
+    }
+
+    std::size_t placeIn(const std::vector<std::string>& names, const std::string& name, const char* what,
+                        const std::string& pointer) {
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (names[i] == name) return i;
+        if (!name.empty())
+            problems_.push_back({pointer, std::string("there is no ") + what + " \"" + name + "\"",
+                                 names.empty() ? std::string("add a ") + what : suggestName(name, names)});
+        return 0;
+    }
+    std::size_t point(const ElementReader& r, const char* key) {
+        return placeIn(pointNames_, r.text(key), "point", r.pointer(key));
+    }
+    std::optional<std::size_t> body(const ElementReader& r) {
+        if (!r.has("body")) return {};
+        return placeIn(bodyNames_, r.text("body"), "body", r.pointer("body"));
+    }
+    Link link(const ElementReader& r) { return {r.name(), point(r, "from"), point(r, "to")}; }
+
+    void readBody(const ElementReader& r) {
+        all_.bodies.push_back({r.name(), r.number("mass"), r.number("inertia"), r.vector("at"),
+                               r.number("angle"), r.vector("velocity"), r.number("spin")});
+    }
+    void readPoint(const ElementReader& r) {
+        PointElement made{r.name(),        r.numberIfGiven("mass"),
+                          r.vector("at"),  r.vector("velocity"),
+                          r.flag("fixed"), body(r)};
+        if (made.body && made.isFixed)
+            r.error("fixed", "belongs to the body " + r.text("body"), "leave out one");
+        if (made.body && made.mass)
+            r.error("mass", "the mass is that of the body " + r.text("body"), "leave it out");
+        if (made.isFree() && !r.has("mass"))
+            r.error("mass", "is required: the point moves",
+                    "or \"fixed\": true, or the body that it belongs to");
+        if (!made.isFree() && r.has("velocity"))
+            r.error("velocity", made.isFixed ? "the point is fixed" : "it follows from the body",
+                    "leave it out");
+        all_.points.push_back(std::move(made));
+    }
+    void readDamper(const ElementReader& r) {
+        DamperElement made{r.name(), {}, {}, body(r), r.number("damping")};
+        if (r.has("from")) made.from = point(r, "from");
+        if (r.has("to")) made.to = point(r, "to");
+        if (made.body.has_value() == made.from.has_value())
+            r.error({}, "needs the point that it begins at, or a body",
+                    "\"from\": \"A\", or \"body\": \"B\"");
+        if (made.to && !made.from) r.error("from", "is required: a damper has two ends", "or the body alone");
+        all_.dampers.push_back(std::move(made));
+    }
+    void readMotor(const ElementReader& r) {
+        MotorElement made;
+        made.name = r.name();
+        made.body = body(r);
+        if (r.has("rod")) made.rod = placeIn(rodNames_, r.text("rod"), "rod", r.pointer("rod"));
+        if (made.body.has_value() == made.rod.has_value())
+            r.error({}, "needs a body or a rod to turn", "\"body\": \"B\", or \"rod\": \"crank\"");
+        const int drives = (r.has("torque") ? 1 : 0) + (r.has("angle") ? 1 : 0) + (r.has("speed") ? 1 : 0);
+        if (drives != 1)
+            r.error({}, "needs one of torque, angle and speed", "\"torque\": 1, or \"angle\": \"sin(t)\"");
+        if (r.has("torque")) made.amount = r.drive("torque");
+        if (r.has("angle")) {
+            made.drive = MotorElement::Drive::angle;
+            made.amount = r.drive("angle");
+        }
+        if (r.has("speed")) {
+            made.drive = MotorElement::Drive::speed;
+            made.amount = r.number("speed");
+        }
+        all_.motors.push_back(std::move(made));
+    }
+    void readWall(const ElementReader& r) {
+        WallElement made;
+        made.name = r.name();
+        made.restitution = r.has("restitution") ? r.number("restitution") : Amount{1, {}};
+        made.isInside = r.flag("inside");
+        const bool isLine = r.has("through") || r.has("normal"), isDisc = r.has("centre") || r.has("radius"),
+                   isBox = r.has("corner") || r.has("opposite");
+        if ((isLine ? 1 : 0) + (isDisc ? 1 : 0) + (isBox ? 1 : 0) != 1)
+            r.error({}, "needs one shape", "through and normal, centre and radius, or corner and opposite");
+        const auto need = [&](const char* key) {
+            if (!r.has(key)) r.error(key, "is required for this shape");
+        };
+        made.shape = isDisc ? WallElement::Shape::disc : isBox ? WallElement::Shape::box : made.shape;
+        for (const char* key : isDisc  ? std::array{"centre", "radius"}
+                               : isBox ? std::array{"corner", "opposite"}
+                                       : std::array{"through", "normal"})
+            need(key);
+        made.first = r.vector(isDisc ? "centre" : isBox ? "corner" : "through");
+        if (!isDisc) made.second = r.vector(isBox ? "opposite" : "normal");
+        if (isDisc && r.has("radius")) made.radius = r.number("radius");
+        for (const std::string& name : r.names("points"))
+            made.points.push_back(placeIn(pointNames_, name, "point", r.pointer("points")));
+        if (!r.has("points"))
+            for (std::size_t k = 0; k < all_.points.size(); ++k)
+                if (!all_.points[k].isFixed) made.points.push_back(k);
+        if (made.points.empty()) r.error("points", "there is no point that it could stop", "name one");
+        all_.walls.push_back(std::move(made));
+    }
+
+    const Settings& settings_;
+    Elements all_;
+    std::vector<std::string> pointNames_, bodyNames_, rodNames_;
+    std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+Elements elementsOf(const Settings& settings) { return Reading(settings).read(); }
+
+std::array<double, 2> placeAtStart(const Elements& elements, std::size_t point) {
+    const PointElement& p = elements.points[point];
+    if (!p.body) return {p.at.x.value, p.at.y.value};
+    const BodyElement& b = elements.bodies[*p.body];
+    const double c = std::cos(b.angle.value), s = std::sin(b.angle.value), x = p.at.x.value, y = p.at.y.value;
+    return {b.at.x.value + x * c - y * s, b.at.y.value + x * s + y * c};
+}
+
+double lengthAtStart(const Elements& elements, const Link& link) {
+    const auto a = placeAtStart(elements, link.from), b = placeAtStart(elements, link.to);
+    return std::hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+std::optional<std::size_t> fixedEnd(const Elements& elements, const RodElement& rod) {
+    if (elements.points[rod.from].isFixed) return rod.from;
+    if (elements.points[rod.to].isFixed) return rod.to;
+    return {};
+}
+
+}  // namespace extremal::cartesian

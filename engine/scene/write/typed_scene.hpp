@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A scene with its model as a typed Lagrangian: the same motion, to be edited as formulas.
+///
+/// Models that write one (model/parts/written_form.hpp), and built-in ones that say their Lagrangian.
+#pragma once
+
+#include "engine/core/value.hpp"
+#include "engine/scene/resolve.hpp"
+
+namespace extremal {
+
+/// The document of the scene. Throws InvalidScene where its model says no Lagrangian.
+Value typedScene(const ResolvedScene& resolved);
+
+}  // namespace extremal
