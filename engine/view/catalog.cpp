@@ -26,9 +26,12 @@ const std::vector<CatalogItem>& viewCatalog() {
 std::string missingFor(const View& view, const System& system) {
     const ViewEntry* entry = findView(view.id);
     if (!entry) return {};
-    if (const std::string needed = neededInstead(entry->takes, system.parts); !needed.empty()) return needed;
-    if (const ObservableEntry* observable = findObservable(entry->observable);
-        observable && !appliesTo(*observable, system))
+    const ObservableEntry* const observable = findObservable(entry->observable);
+    if (entry->takes || !observable)
+        if (const std::string needed = neededInstead(entry->takes.value_or(plainProblems()), system.parts);
+            !needed.empty())
+            return needed;
+    if (observable && !appliesTo(*observable, system))
         return observable->item.needs.empty() ? "the observable " + entry->observable
                                               : observable->item.needs;
     return entry->missing ? entry->missing(view, system) : std::string();

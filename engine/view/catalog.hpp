@@ -6,6 +6,7 @@
 /// needs it names as observable and products, and a run computes just that.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,9 +66,9 @@ struct ViewEntry {
     Scales scales = {};
     std::string observable = {};  ///< the scene must observe it; empty: the rows are enough
     std::vector<Product> products = {};
-    /// The binding parts beside which it means something: by default those of problems that are one part
-    /// alone.
-    Takes takes = plainProblems();
+    /// The binding parts beside which it means something. By default those of its observable; of a view that
+    /// has none, those of problems that are one part alone.
+    std::optional<Takes> takes = {};
     /// What the system lacks for it, as "a wave function"; empty text: nothing. Null: every system has the
     /// view. An observable that the system lacks need not be asked about.
     std::string (*missing)(const View&, const System&) = nullptr;

@@ -39,7 +39,7 @@ Figure makeShapeFunction(const FigureContext& context) {
         figure.add(std::move(s));
     }
     if (right > left) figure.x.range = {left, right};
-    if (context.system && !isTaken(context.entry.takes, context.system->parts))
+    if (context.system && !isTaken(*context.entry.takes, context.system->parts))
         figure.message = "Only schemes of the elliptic problem have shape functions";
     finishFigure(figure, context, "Shape function " + figure.subtitle);
     figure.drop<FailureMark>();

@@ -12,7 +12,6 @@ ViewEntry curve_error() {
             .scales = logAgainstTime,
             .observable = "error",
             .products = {Product::denseError},
-            .takes = Takes::everything(),
             .missing = [](const View&, const System& system) {
                 return std::string(stateColumns(system).empty() ? "a state of a few numbers" : "");
             }};

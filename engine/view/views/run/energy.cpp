@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// |H(t) - H(0)| on a logarithmic axis; says how many schemes drift (engine/figure/trend.hpp).
-#include "engine/model/mechanisms.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
 
@@ -12,8 +11,7 @@ ViewEntry energy() {
                              {againstField()}),
             .recipe = OwnRecipe{"energy"},
             .scales = logAgainstTime,
-            .observable = "energy",
-            .takes = plainProblemsAndMechanisms()};
+            .observable = "energy"};
 }
 
 }  // namespace extremal::views

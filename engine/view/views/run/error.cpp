@@ -12,8 +12,7 @@ ViewEntry error() {
                              {againstField()}),
             .recipe = OwnRecipe{"error"},
             .scales = logAgainstTime,
-            .observable = "error",
-            .takes = Takes::everything()};
+            .observable = "error"};
 }
 
 }  // namespace extremal::views

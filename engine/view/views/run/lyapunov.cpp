@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The Lyapunov exponent up to each time, against the logarithm of time.
-#include "engine/model/mechanisms.hpp"
 #include "engine/view/catalog.hpp"
 
 namespace extremal::views {
@@ -11,8 +10,7 @@ ViewEntry lyapunov() {
                              "rest where the motion is chaotic"),
             .recipe = OwnRecipe{"lyapunov"},
             .scales = logScales,
-            .observable = "lyapunov",
-            .takes = plainProblemsAndHamiltonians()};
+            .observable = "lyapunov"};
 }
 
 }  // namespace extremal::views

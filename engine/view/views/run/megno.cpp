@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The mean of MEGNO up to each time, against the logarithm of time.
-#include "engine/model/mechanisms.hpp"
 #include "engine/view/catalog.hpp"
 
 namespace extremal::views {
@@ -12,8 +11,7 @@ ViewEntry megno() {
                          "regular, growing where it is chaotic"),
         .recipe = OwnRecipe{"megno"},
         .scales = Scales{true, true, false},
-        .observable = "lyapunov",
-        .takes = plainProblemsAndHamiltonians()};
+        .observable = "lyapunov"};
 }
 
 }  // namespace extremal::views

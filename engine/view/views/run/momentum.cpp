@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Norm of the change of the conserved momenta, on a logarithmic axis.
-#include "engine/model/mechanisms.hpp"
 #include "engine/symmetry/conserved.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
@@ -14,7 +13,6 @@ ViewEntry momentum() {
             .recipe = OwnRecipe{"momentum"},
             .scales = logAgainstTime,
             .observable = "momentum",
-            .takes = plainProblemsAndMechanisms(),
             .missing = [](const View&, const System& system) {
                 return std::string(hasMomenta(system) ? "" : "a conserved momentum");
             }};

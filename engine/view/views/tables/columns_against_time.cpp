@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Views that draw a column of an observable against time. The monitor is what stationarity in the times
 /// makes equal on all steps.
-#include "engine/model/mechanisms.hpp"
 #include "engine/view/catalog.hpp"
 
 namespace extremal::views {
@@ -25,8 +24,7 @@ std::vector<ViewEntry> columns_against_time() {
                           "period the sum of the multipliers"),
          .recipe = ColumnAgainstTime{"floquet_trace"},
          .scales = againstTime,
-         .observable = "floquet",
-         .takes = plainProblemsAndHamiltonians()},
+         .observable = "floquet"},
         {.item = viewItem("slow-energy", "Slow energy",
                           "energy without that of the fast oscillation against time"),
          .recipe = ColumnAgainstTime{"slow_energy"},
@@ -36,8 +34,7 @@ std::vector<ViewEntry> columns_against_time() {
                           "work of forces, and of constraints that move with time, since the start"),
          .recipe = ColumnAgainstTime{"work"},
          .scales = againstTime,
-         .observable = "balance",
-         .takes = mechanisms()},
+         .observable = "balance"},
         {.item =
              viewItem("amplification", "Amplification",
                       "by how much each step amplifies the error that there was before it, |M e| / |e|", {}),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Views that draw the size of a change against time or steps, on a logarithmic axis.
-#include "engine/model/mechanisms.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
 
@@ -21,14 +20,12 @@ std::vector<ViewEntry> errors_against_time() {
                           {againstField()}),
          .recipe = ErrorAgainstTime{"balance", "|H − H(0) − W|"},
          .scales = logAgainstTime,
-         .observable = "balance",
-         .takes = mechanisms()},
+         .observable = "balance"},
         {.item = viewItem("constraint", "Distance from the constraints",
                           "largest |g| of every scheme against time or steps, logarithmic", {againstField()}),
          .recipe = ErrorAgainstTime{"constraint", "max |g|, |a v − b|"},
          .scales = logAgainstTime,
-         .observable = "constraint",
-         .takes = mechanisms()},
+         .observable = "constraint"},
         {.item =
              viewItem("local-error", "Local error",
                       "the error made in each step, logarithmic, against time or steps", {againstField()}),
@@ -64,8 +61,7 @@ std::vector<ViewEntry> errors_against_time() {
                       {againstField()}),
          .recipe = ErrorAgainstTime{"reversibility", "|x back − x|", 1},
          .scales = logAgainstTime,
-         .observable = "reversibility",
-         .takes = plainProblemsAndHamiltonians()},
+         .observable = "reversibility"},
         {.item = viewItem("transported-error", "Transported error",
                           "what the local errors have become, carried along by the tangent maps of the "
                           "steps, logarithmic, against time or steps",
@@ -78,8 +74,7 @@ std::vector<ViewEntry> errors_against_time() {
                           {againstField()}),
          .recipe = ErrorAgainstTime{"volume", "|det M − 1|", 1},
          .scales = logAgainstTime,
-         .observable = "volume",
-         .takes = plainProblemsAndHamiltonians()},
+         .observable = "volume"},
         {.item = viewItem("discrete-energy", "Discrete energy error",
                           "|E_d − E_d(0)| of discretizations against time or steps, logarithmic: constant "
                           "where the times are unknowns; the energy at the nodes is another thing",
@@ -94,16 +89,14 @@ std::vector<ViewEntry> errors_against_time() {
                       {againstField()}),
          .recipe = ErrorAgainstTime{"symplecticity", "max |MᵀJM − J|", 1},
          .scales = logAgainstTime,
-         .observable = "symplecticity",
-         .takes = plainProblemsAndHamiltonians()},
+         .observable = "symplecticity"},
         {.item = viewItem("symplecticity-accumulated", "Symplecticity, accumulated",
                           "largest entry of PᵀJP − J against time or steps, logarithmic, over the square of "
                           "that of P, the product of the tangent maps of all steps",
                           {againstField()}),
          .recipe = ErrorAgainstTime{"symplecticity_accumulated", "|PᵀJP − J|/|P|²", 1},
          .scales = logAgainstTime,
-         .observable = "symplecticity",
-         .takes = plainProblemsAndHamiltonians()},
+         .observable = "symplecticity"},
     };
 }
 
