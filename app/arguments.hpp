@@ -21,6 +21,7 @@ struct Arguments {
     AtlasRunOptions atlas;
     PassportRequest passport;
     ProgramRequest program;
+    FormulasRequest formulas;
 };
 
 /// Reads the arguments. Empty if there is nothing left to do (--help, --version, or an error that was

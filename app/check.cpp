@@ -7,6 +7,7 @@
 #include "app/verbs.hpp"
 #include "engine/core/switching.hpp"
 #include "engine/family/kept_momenta.hpp"
+#include "engine/model/parts/written_form.hpp"
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typeset.hpp"
 #include "engine/scene/outlook/topics.hpp"
@@ -16,23 +17,30 @@
 namespace extremal::app {
 namespace {
 
+/// The keys of a typed Lagrangian, or of the one that the model writes; null: there is none.
+const Settings* typedSettings(const ResolvedScene& resolved) {
+    if (const auto* const form = resolved.system->parts.find<WrittenForm>()) return &form->settings;
+    return resolved.scene.model.type == "lagrangian" ? &resolved.scene.model : nullptr;
+}
+
 /// The Euler-Lagrange equations of a typed Lagrangian.
-Value equationsValue(const Scene& scene) {
+Value equationsValue(const ResolvedScene& resolved) {
     Value::Array lines;
-    if (scene.model.type == "lagrangian")
-        for (std::string& line : typed::equationLines(typed::formulaOf(scene.model), typed::TextForm::plain))
+    if (const Settings* const typed = typedSettings(resolved))
+        for (std::string& line : typed::equationLines(typed::formulaOf(*typed), typed::TextForm::plain))
             lines.emplace_back(std::move(line));
     return lines;
 }
 
 /// Where a typed Lagrangian has kinks and jumps: the functions that change sign there.
-std::vector<SwitchingFunction> switchesOf(const Scene& scene) {
-    if (scene.model.type != "lagrangian") return {};
-    return switchingFunctions(parseExpression(typed::formulaOf(scene.model).text));
+std::vector<SwitchingFunction> switchesOf(const ResolvedScene& resolved) {
+    const Settings* const typed = typedSettings(resolved);
+    if (!typed) return {};
+    return switchingFunctions(parseExpression(typed::formulaOf(*typed).text));
 }
-Value switchesValue(const Scene& scene) {
+Value switchesValue(const ResolvedScene& resolved) {
     Value::Array all;
-    for (const SwitchingFunction& s : switchesOf(scene)) {
+    for (const SwitchingFunction& s : switchesOf(resolved)) {
         Value each;
         each.set("zero", s.function.text);
         each.set("kind", s.mayJump ? "jump" : "kink");
@@ -40,9 +48,9 @@ Value switchesValue(const Scene& scene) {
     }
     return all;
 }
-std::string switchesText(const Scene& scene) {
+std::string switchesText(const ResolvedScene& resolved) {
     std::string text;
-    for (const SwitchingFunction& s : switchesOf(scene))
+    for (const SwitchingFunction& s : switchesOf(resolved))
         text += (text.empty() ? "not smooth where " : ", ") + s.function.text + " = 0" +
                 (s.mayJump ? " (jump)" : " (kink)");
     return text.empty() ? text : text + "\n";
@@ -91,8 +99,8 @@ int checkVerb(const std::string& scene, const CommonOptions& options) {
         setProblems(document, "errors", read.errors);
         setProblems(document, "warnings", read.warnings);
         if (isValid) {
-            document.set("equations", equationsValue(read.scene));
-            document.set("switches", switchesValue(read.scene));
+            document.set("equations", equationsValue(*read.resolved));
+            document.set("switches", switchesValue(*read.resolved));
             document.set("symmetries", symmetriesValue(*read.resolved));
         }
         return print(writeJson(document), code);
@@ -101,7 +109,7 @@ int checkVerb(const std::string& scene, const CommonOptions& options) {
     std::string text = sceneName(scene) + ": valid\n";
     if (const System& system = *read.resolved->system; system.isMovedOnlyBy<Mechanical>())
         text += "symmetries: " + symmetryText(system) + "\n";
-    text += switchesText(read.scene);
+    text += switchesText(*read.resolved);
     return print(text, code);
 }
 

@@ -218,6 +218,14 @@ void addProgram(CLI::App& app, Arguments& arguments) {
     addCommon(verb, arguments.common);
 }
 
+void addFormulas(CLI::App& app, Arguments& arguments) {
+    CLI::App& verb =
+        addVerb(app, arguments, "formulas", "the same scene with its model as a typed Lagrangian", true);
+    verb.add_option("--out", arguments.formulas.out, "the file; standard output by default")
+        ->type_name("FILE");
+    addCommon(verb, arguments.common);
+}
+
 void addWisdom(CLI::App& app, Arguments& arguments) {
     CLI::App& verb =
         addVerb(app, arguments, "wisdom",
@@ -252,6 +260,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() 
         {"program",
          {"extremal program preset:pendulum --out pendulum.cpp",
           "extremal program preset:kepler --out kepler.py"}},
+        {"formulas", {"extremal formulas preset:four-bar-by-hand --out four-bar.json"}},
         {"check",
          {"extremal check preset:kepler",
           "extremal check preset:kepler --set '/schemes/-={\"scheme\": \"galerkin-gauss-4\", \"step\": "
@@ -297,6 +306,7 @@ std::unique_ptr<CLI::App> makeInterface(Arguments& arguments) {
     addSnapshot(app, arguments);
     addPassport(app, arguments);
     addProgram(app, arguments);
+    addFormulas(app, arguments);
     addCommon(addVerb(app, arguments, "check", "report every error and warning of a scene", true),
               arguments.common);
     CLI::App& list = addVerb(app, arguments, "list", "list what a scene may contain", false);

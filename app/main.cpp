@@ -44,6 +44,8 @@ int dispatch(int argc, char** argv) {
         return passportVerb(arguments->scene, arguments->passport, arguments->common);
     if (arguments->verb == "program")
         return programVerb(arguments->scene, arguments->program, arguments->common);
+    if (arguments->verb == "formulas")
+        return formulasVerb(arguments->scene, arguments->formulas, arguments->common);
     if (arguments->verb == "check") return checkVerb(arguments->scene, arguments->common);
     if (arguments->verb == "handbook") return handbookVerb(arguments->kind, arguments->common);
     if (arguments->verb == "list") return listVerb(arguments->kind, arguments->common);

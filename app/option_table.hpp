@@ -33,6 +33,7 @@ inline const std::vector<VerbOptions>& optionTable() {
          joined({scene, words, limits, files, {"--size", "--view", "--time", "--compare", "--tolerance"}})},
         {"passport", joined({scene, words, limits, files, {"--scheme", "--format", "--measure"}})},
         {"program", joined({scene, words, limits, files, {"--scheme", "--language"}})},
+        {"formulas", joined({scene, {"--quiet"}, files})},
         {"check", joined({scene, words, limits})},
         {"study convergence", joined({scene, words, limits, files, study, sweep, ladder})},
         {"study work-precision", joined({scene, words, limits, files, study, sweep, ladder})},

@@ -66,9 +66,15 @@ struct ProgramRequest {
     std::string out;
 };
 
+struct FormulasRequest {
+    std::string out;  ///< empty: standard output
+};
+
 int runVerb(const std::string& scene, const RunVerbOptions& run, const CommonOptions& options);
 int passportVerb(const std::string& scene, const PassportRequest& request, const CommonOptions& options);
 int programVerb(const std::string& scene, const ProgramRequest& request, const CommonOptions& options);
+/// The scene with its model as a typed Lagrangian.
+int formulasVerb(const std::string& scene, const FormulasRequest& request, const CommonOptions& options);
 int checkVerb(const std::string& scene, const CommonOptions& options);
 int listVerb(const std::string& kind, const CommonOptions& options);
 /// A page of the handbook or a section of it ("scenes#views"); empty: the pages there are.

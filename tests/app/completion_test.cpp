@@ -17,8 +17,8 @@ namespace {
 using tests::runProgram;
 
 QStringList verbs() {
-    return {"run",   "snapshot", "passport", "program", "check",      "list",
-            "study", "handbook", "atlas",    "wisdom",  "completion", "manual"};
+    return {"run",      "snapshot", "passport", "program",    "check",  "list",    "study",
+            "handbook", "atlas",    "wisdom",   "completion", "manual", "formulas"};
 }
 
 /// A command of a shell in a folder, with the program on the path: what it prints.

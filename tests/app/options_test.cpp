@@ -55,6 +55,7 @@ QStringList callOf(const QString& verb) {
         {"snapshot", words("snapshot s.json")},
         {"passport", words("passport s.json")},
         {"program", words("program s.json")},
+        {"formulas", words("formulas s.json")},
         {"check", words("check s.json")},
         {"study convergence", words("study convergence s.json --repeat 0")},
         {"study work-precision", words("study work-precision s.json --repeat 0")},
@@ -104,6 +105,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
     };
     if (option == "--out") {
         if (verb == "passport") return added(words("--out p.md"));
+        if (verb == "formulas") return added(words("--out t.json"));
         if (verb == "snapshot") return replaced("p.png", "q.png");
         if (verb == "program") return replaced("p.cpp", "q.cpp");
         return verb == "wisdom" ? replaced("w", "v") : replaced("d", "e");
@@ -126,11 +128,12 @@ Sample sampleOf(const QString& verb, const QString& option) {
         return added(words("--compare b.png"), {words("snapshot s.json --view energy --out b.png")});
     if (option == "--set" && (verb == "check" || verb == "passport"))
         return added(words("--set /nonsense/key=1"));
-    if (option == "--quiet" && verb == "passport")
+    if (option == "--quiet" && (verb == "passport" || verb == "formulas"))
         return {needs + words("--out p.md"), needs + words("--out p.md --quiet")};
     if (option == "--trust") return added({"--trust"}, {{"stranger"}});
     if (option == "--force") {
-        const QStringList full = verb == "passport" ? needs + words("--out p.md") : needs;
+        const QStringList full =
+            verb == "passport" || verb == "formulas" ? needs + words("--out p.md") : needs;
         return {full, full + QStringList{"--force"}, {{"files of the user"}}};
     }
     if (option == "--resume") return added({"--resume"}, {{"log of another"}});
