@@ -18,7 +18,7 @@ set(levels
     library ui app)
 # The levels within ui: a folder may include itself and the folders of lower levels. Folders joined by "+" are on one
 # level, and do not include each other. This list and the one above are also the tree that the handbook prints.
-set(levels_of_ui base text+workspace plots+stage pictures+panels study+own compare+windows shell)
+set(levels_of_ui base text+workspace plots+stage pictures+panels study+own+sketch compare+windows shell)
 set(max_lines 500)
 set(max_function_lines 80)
 set(max_files 40)  # in a folder, without those below it

@@ -9,6 +9,7 @@
 #include <exception>
 
 #include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/written_form.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "ui/base/background.hpp"
@@ -78,11 +79,32 @@ std::shared_ptr<const Comparison> previewOf(const ResolvedScene& scene, const st
     return result->schemes.empty() ? nullptr : result;
 }
 
+/// The start in the model itself, where that says it.
+std::vector<Edit> editsForWrittenForm(const Value& document, const System& system, const WrittenForm& form,
+                                      const State& state, const std::vector<double>& velocity,
+                                      bool keepsMotion) {
+    std::vector<double> v = velocity.empty() ? form.v : velocity;
+    if (velocity.empty() && !keepsMotion) {
+        std::vector<double> rate(state.x.size());
+        if (rateOf(system, state.t, state.x.data(), rate.data()))
+            v.assign(rate.begin(), rate.begin() + system.dimension());
+    }
+    std::vector<Edit> edits;
+    if (const Value* const model = valueAt(document, "/model"))
+        edits.push_back({"/model", form.withStart(form, *model, state.x.data(), v.data())});
+    if (const Value* const initial = valueAt(document, "/initial"); initial && initial->isObject())
+        for (const char* key : {"q", "p", "v", "q1", "at"})
+            if (initial->find(key)) edits.push_back({std::string("/initial/") + key, std::nullopt});
+    return edits;
+}
+
 }  // namespace
 
 std::vector<Edit> editsForState(const Value& document, const Scene& scene, const System& system,
                                 const State& state, const std::vector<double>& velocity, bool keepsMotion) {
     const auto d = static_cast<std::size_t>(system.dimension());
+    if (const auto* const form = system.parts.find<WrittenForm>())
+        return editsForWrittenForm(document, system, *form, state, velocity, keepsMotion);
     const Value* const now = valueAt(document, "/initial");
     Value initial = now && now->isObject() ? *now : Value(Value::Object{});
     const Value before = initial.find("q") ? *initial.find("q") : Value();

@@ -21,6 +21,7 @@
 #include "ui/compare/starting.hpp"
 #include "ui/plots/plot_group.hpp"
 #include "ui/plots/plot_widget.hpp"
+#include "ui/sketch/mechanism_sketch.hpp"
 #include "ui/stage/stage_widget.hpp"
 #include "ui/workspace/playback.hpp"
 #include "ui/workspace/run_control.hpp"
@@ -79,6 +80,7 @@ void CompareView::makeStage() {
     connectDrawing();
     connectPreview();
     connectBodies();
+    connectSketch();
 }
 
 void CompareView::connectState() {
@@ -124,7 +126,10 @@ QString CompareView::selectedLabel() const {
 std::vector<std::function<void()>> CompareView::partsOfTheme(const Theme& theme) {
     theme_ = &theme;
     std::vector<std::function<void()>> parts;
-    parts.emplace_back([this, &theme] { stage_->setTheme(theme); });
+    parts.emplace_back([this, &theme] {
+        stage_->setTheme(theme);
+        sketch_->setTheme(theme);
+    });
     for (const auto& s : slots_)
         parts.emplace_back([plot = QPointer(s->plot), &theme] {
             if (plot) plot->setTheme(theme);

@@ -26,6 +26,7 @@ class BackgroundSweep;
 class BodyDragging;
 class Card;
 class CasePreview;
+class MechanismSketch;
 class Playback;
 class PlotGroup;
 class PlotWidget;
@@ -78,11 +79,15 @@ public:
     long long figuresMade() const { return figuresMade_; }
     /// Whether the plots show short runs from where a body is dragged.
     bool isPreviewing() const;
+    /// Draws the mechanism of the scene by hand, or ends that; `isEmpty`: on an empty sheet.
+    void drawMechanism(bool isEmpty);
 
 signals:
     void saveFailed(const QString& reason);
     void caseLoaded(const QString& text);      ///< of a map, into the scene
     void startRefused(const QString& reason);  ///< no motion starts at a place that was chosen
+    /// What was drawn cannot be in the scene; both empty: it is, or nothing is drawn.
+    void sketchRefused(const QString& reason, const QString& remedy);
     void figuresChanged();
     void wantedMoved(double error);
 
@@ -116,6 +121,7 @@ private:
     void connectDrawing();          ///< of initial profiles, on the stage
     void connectPreview();          ///< of cases of maps, on the stage
     void connectBodies();           ///< that are dragged on the stage
+    void connectSketch();           ///< of a mechanism that is drawn by hand
     void tellOfHand();              ///< what cannot be dragged, in the tooltip of the stage
     /// What is shown: the results, or a preview of others.
     std::shared_ptr<const Comparison> shownResults() const;
@@ -143,6 +149,7 @@ private:
     StageWidget* stage_;
     CasePreview* preview_;  ///< of a case of a map, on the stage
     BodyDragging* bodies_;
+    MechanismSketch* sketch_;
     std::shared_ptr<const Comparison> staged_;  ///< what the stage shows
     std::vector<std::unique_ptr<Slot>> slots_;
     std::shared_ptr<const System> system_;  ///< of the results

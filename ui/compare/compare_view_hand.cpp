@@ -6,6 +6,7 @@
 #include "ui/base/card.hpp"
 #include "ui/compare/body_dragging.hpp"
 #include "ui/compare/compare_view.hpp"
+#include "ui/sketch/mechanism_sketch.hpp"
 #include "ui/stage/stage_widget.hpp"
 #include "ui/workspace/playback.hpp"
 #include "ui/workspace/run_control.hpp"
@@ -47,6 +48,36 @@ void CompareView::connectBodies() {
         stageCard_->setSubtitle(isPreviewing() ? tr("a short run from here") : QString());
         if (run_.results()) refresh();
     });
+}
+
+void CompareView::connectSketch() {
+    sketch_ = new MechanismSketch(workspace_, *stage_);
+    sketch_->setTheme(*theme_);
+    stageCard_->body()->insertWidget(1, sketch_);
+    QAction* const draws = stageCard_->menu()->addAction(tr("Draw the mechanism"));
+    draws->setCheckable(true);
+    connect(draws, &QAction::triggered, this, [this] { drawMechanism(false); });
+    connect(stageCard_->menu(), &QMenu::aboutToShow, this, [this, draws] {
+        draws->setVisible(workspace_.hasScene() && workspace_.scene().model.type == "mechanism");
+        draws->setChecked(sketch_->isOpen());
+    });
+    // The sheet has the whole page, as far as the stage has not been given it before.
+    connect(sketch_, &MechanismSketch::openChanged, this, [this](bool isOpen) {
+        if ((maximized_ == stageCard_) != isOpen) maximize(stageCard_);
+    });
+    connect(sketch_, &MechanismSketch::refused, this, &CompareView::sketchRefused);
+    connect(sketch_, &MechanismSketch::accepted, this, [this] { emit sketchRefused({}, {}); });
+    connect(sketch_, &MechanismSketch::played, this, [this] {
+        playback_.setTime(playback_.start());
+        playback_.setPlaying(true);
+    });
+}
+
+void CompareView::drawMechanism(bool isEmpty) {
+    if (sketch_->isOpen())
+        sketch_->end();
+    else
+        sketch_->begin(isEmpty);
 }
 
 bool CompareView::isPreviewing() const { return bodies_->preview() != nullptr; }

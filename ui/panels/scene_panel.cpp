@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "engine/model/parts/written_form.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/event_names.hpp"
 #include "engine/scene/read/json.hpp"
@@ -115,7 +116,9 @@ std::vector<FormField> initialFields(const Workspace& workspace, const System& s
                 {std::move(info), "/initial/" + std::string(key) + "/" + std::to_string(i), label, {}});
         }
     };
-    add("q", {}, false);
+    // A start that the model says is that of its elements.
+    const bool saysItself = system.parts.find<WrittenForm>() && !valueAt(workspace.document(), "/initial/q");
+    if (!saysItself) add("q", {}, false);
     if (workspace.scene().initial.second == Initial::Second::position) {
         for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
             const Coordinate& c = system.coordinates[i];
@@ -271,6 +274,7 @@ void ScenePanel::rebuild() {
     events_->setVisible(shownEvents_ > 0);
     std::string keys = std::to_string(static_cast<int>(scene.initial.second));
     for (const auto& [key, value] : scene.initial.given.keys) keys += ' ' + key;
+    if (valueAt(workspace_.document(), "/initial/q")) keys += " q";
     if (const Value* names = scene.model.find("coordinates")) keys += writeCompactJson(*names);
     const ModelEntry* entry = findModel(scene.model.type);
     if (!entry) return;

@@ -35,6 +35,7 @@
 #include "ui/shell/start_page.hpp"
 #include "ui/shell/theme_switch.hpp"
 #include "ui/shell/timeline.hpp"
+#include "ui/sketch/mechanism_sketch.hpp"
 #include "ui/study/study_page.hpp"
 #include "ui/text/text_view.hpp"
 #include "ui/windows/copies_window.hpp"
@@ -130,6 +131,14 @@ void MainWindow::newFromLagrangian() {
         formula->setFocus();
         formula->selectAll();
     }
+}
+
+/// The mechanism of the scene, or a new one on an empty sheet.
+void MainWindow::drawMechanism() {
+    const bool isNew = !isSceneInSight() || workspace_->scene().model.type != "mechanism";
+    if (isNew && (!mayLeaveScene() || !workspace_->adopt(newMechanismScene()))) return;
+    tabs_->setCurrentIndex(0);
+    compare_->drawMechanism(isNew);
 }
 
 /// Files that were opened or saved, the latest first; of the last session as well.

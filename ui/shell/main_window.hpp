@@ -135,6 +135,7 @@ private:
     void showValues();
     void openDialog();
     void newFromLagrangian();
+    void drawMechanism();
     void keepRecent();
     void save(bool asksName);
     void exportDialog();

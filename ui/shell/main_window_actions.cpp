@@ -80,9 +80,9 @@ void MainWindow::makeActions() {
     QDesktopServices::setUrlHandler(QStringLiteral("handbook"), this, "openHandbook");
     QDesktopServices::setUrlHandler(QStringLiteral("preset"), this, "openPreset");
     // All others are of the scene.
-    actions_->keepWithoutScene({"gallery", "newLagrangian", "open", "pasteScene", "quit", "palette", "theme",
-                                "larger", "smaller", "fullScreen", "ownSchemes", "help", "searchHelp",
-                                "paper", "keys", "log", "about"});
+    actions_->keepWithoutScene({"gallery", "newLagrangian", "drawMechanism", "open", "pasteScene", "quit",
+                                "palette", "theme", "larger", "smaller", "fullScreen", "ownSchemes", "help",
+                                "searchHelp", "paper", "keys", "log", "about"});
 }
 
 void MainWindow::startLesson() {
@@ -136,6 +136,10 @@ void MainWindow::addFileActions() {
                   [this] { showStartPage(); });
     actions_->add("newLagrangian", menu, tr("New from a Lagrangian"),
                   {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_N)}, [this] { newFromLagrangian(); });
+    actions_->add(
+        "drawMechanism", menu, tr("Draw a mechanism"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_M)},
+        [this] { drawMechanism(); },
+        tr("Points, rods, springs, dampers, motors and walls, drawn on the stage"));
     actions_->add("open", menu, tr("Open..."), {QKeySequence::Open}, [this] { openDialog(); });
     actions_->add("save", menu, tr("Save"), {QKeySequence::Save}, [this] { save(false); });
     actions_->add("saveAs", menu, tr("Save as..."), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S)},

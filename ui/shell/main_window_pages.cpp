@@ -168,6 +168,16 @@ void MainWindow::tellOfPlots() {
              tr("the dot in each map marks the scene; Ctrl+Z undoes this"),
              {{tr("Undo"), [this] { workspace_->undo(); }}});
     });
+    connect(compare_, &CompareView::sketchRefused, this,
+            [this](const QString& reason, const QString& remedy) {
+                if (reason.isEmpty()) return notices_->dismiss(QStringLiteral("sketch"));
+                notices_->post({Notice::Kind::warning,
+                                "sketch",
+                                tr("The drawing does not run: %1.").arg(reason),
+                                remedy,
+                                {},
+                                "mechanisms"});
+            });
     connect(compare_, &CompareView::saveFailed, this, [this](const QString& reason) {
         notices_->post(
             {Notice::Kind::error, "save", tr("The plot could not be saved: %1").arg(reason), {}, {}});

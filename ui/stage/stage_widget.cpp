@@ -20,6 +20,7 @@
 #include "ui/stage/stage_picture.hpp"
 #include "ui/stage/stage_player.hpp"
 #include "ui/stage/surface.hpp"
+#include "ui/stage/tension_lines.hpp"
 
 namespace extremal {
 namespace {
@@ -102,6 +103,7 @@ struct StageWidget::Impl {
             painter.fillRect(area, theme.panel);
             paintMessage(painter, failure);
         } else if (player.hasStage()) {
+            paintTensions(painter);
             paintOverlay(painter, area, currentFrame(), player, theme, {overlay.hasLegend, camera()});
             paintSketch(painter);
             paintHand(painter);
@@ -109,6 +111,16 @@ struct StageWidget::Impl {
             paintMessage(painter, player.comparison() && !player.comparison()->schemes.empty()
                                       ? QStringLiteral("Waiting for the first step")
                                       : QStringLiteral("Nothing to show yet"));
+    }
+    /// Rods that are pulled and rods that are pressed, the stronger the more visible.
+    void paintTensions(QPainter& painter) const {
+        painter.setRenderHint(QPainter::Antialiasing);
+        for (const TensionLine& line : tensionLines(player, t)) {
+            QColor colour = line.pull > 0 ? theme.error : theme.good;
+            colour.setAlphaF(static_cast<float>(std::min(1.0, std::sqrt(std::abs(line.pull)))));
+            painter.setPen(QPen(colour, 6, Qt::SolidLine, Qt::FlatCap));
+            painter.drawLine(onWidget(line.a), onWidget(line.b));
+        }
     }
     void paintSketch(QPainter& painter) const {
         if (sketch.empty()) return;
@@ -288,6 +300,7 @@ void StageWidget::setSketch(std::vector<Point> points) {
 void StageWidget::fit() { impl_->choose(std::nullopt); }
 void StageWidget::zoom(double factor) { impl_->zoomAt(factor, QRectF(rect()).center()); }
 Camera StageWidget::camera() const { return impl_->camera(); }
+void StageWidget::setCamera(const Camera& camera) { impl_->choose(camera); }
 bool StageWidget::isFitted() const { return !impl_->chosen; }
 bool StageWidget::usesGraphicsCard() const { return impl_->usesGraphicsCard; }
 

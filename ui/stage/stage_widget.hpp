@@ -44,9 +44,10 @@ public:
     void setLegendShown(bool isShown);
     void setGridShown(bool isShown);
     void fit();
-    void zoom(double factor);  ///< about the middle
-    Camera camera() const;     ///< of the present view
-    bool isFitted() const;     ///< false once the user has zoomed or panned
+    void zoom(double factor);              ///< about the middle
+    Camera camera() const;                 ///< of the present view
+    void setCamera(const Camera& camera);  ///< as if the user had zoomed and panned
+    bool isFitted() const;                 ///< false once the user has zoomed or panned
     bool usesGraphicsCard() const;
     /// What draws it: the graphics card or software, as OpenGL names itself, or what is missing.
     QString drawingBackend() const;
