@@ -4,10 +4,12 @@
 #include <QTest>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "engine/model/parts/force.hpp"
 #include "engine/model/parts/written_form.hpp"
 #include "engine/scene/read/json.hpp"
 #include "engine/scene/resolve.hpp"
@@ -68,6 +70,16 @@ const char* const plate = R"(
     "points": {"O": {"at": [0, 0], "fixed": true}, "P": {"body": "plate", "at": [-0.3, 0.4]}},
     "bodies": {"plate": {"mass": 2, "inertia": 0.7, "at": [0.3, -0.4], "spin": 1, "velocity": [0.4, 0.3]}},
     "pins": {"pin": {"from": "P", "to": "O"}})";
+
+/// Springs, dampers and motors between points that move, points of a body and the ground.
+const char* const manyForces = R"("gravity": 3,
+            "points": {"O": {"at": [0, 1], "fixed": true}, "P": {"body": "b", "at": [0.5, 0.2]},
+                       "Q": {"body": "b", "at": [-0.5, 0]}, "A": {"mass": 1, "at": [2, 1]}},
+            "bodies": {"b": {"mass": 2, "inertia": 0.4, "at": [0, 0], "angle": 0.3}},
+            "rods": {"rod": {"from": "O", "to": "Q"}},
+            "springs": {"s": {"from": "P", "to": "A", "stiffness": 8, "damping": 0.5}},
+            "dampers": {"d": {"from": "O", "to": "A", "damping": 0.7}, "turning": {"body": "b", "damping": 0.1}},
+            "motors": {"m": {"rod": "rod", "torque": "2*cos(t)+0"}, "n": {"body": "b", "torque": 0.5}})";
 
 double largestDifference(const std::vector<double>& a, const std::vector<double>& b) {
     double largest = a.size() == b.size() ? 0 : 1e300;
@@ -155,14 +167,7 @@ class MechanismTest : public QObject {
     /// Damping takes what the balance says, of springs, dampers and motors that join moving points and
     /// bodies.
     void energyMinusWorkIsKept() {
-        const Mechanical of = mechanical(R"("gravity": 3,
-            "points": {"O": {"at": [0, 1], "fixed": true}, "P": {"body": "b", "at": [0.5, 0.2]},
-                       "Q": {"body": "b", "at": [-0.5, 0]}, "A": {"mass": 1, "at": [2, 1]}},
-            "bodies": {"b": {"mass": 2, "inertia": 0.4, "at": [0, 0], "angle": 0.3}},
-            "rods": {"rod": {"from": "O", "to": "Q"}},
-            "springs": {"s": {"from": "P", "to": "A", "stiffness": 8, "damping": 0.5}},
-            "dampers": {"d": {"from": "O", "to": "A", "damping": 0.7}, "turning": {"body": "b", "damping": 0.1}},
-            "motors": {"m": {"rod": "rod", "torque": "2*cos(t)+0"}, "n": {"body": "b", "torque": 0.5}})");
+        const Mechanical of = mechanical(manyForces);
         const EnergyFunction energy = energyOf(of.system);
         double before = 0;
         for (const int steps : {40, 80}) {
@@ -175,6 +180,32 @@ class MechanismTest : public QObject {
             if (before > 0) QVERIFY(std::abs(std::log2(before / balance) - 4) < 0.5);
             before = balance;
         }
+    }
+    /// What the forces do on the coordinates is what the elements say of lengths and angles.
+    void forcesHaveThePowerOfTheirElements() {
+        const Mechanical of = mechanical(manyForces);
+        const std::vector<double> q{2.1, 0.8, 0.1, -0.2, 0.4}, v{0.3, -0.7, 0.5, 0.2, 1.3};
+        constexpr double t = 0.7, h = 1e-5;
+        std::vector<double> force(5);
+        const Force& parts = *of.system.parts.find<Force>();
+        parts.value(parts.model.get(), t, q.data(), v.data(), force.data());
+        double power = 0;
+        for (std::size_t i = 0; i < 5; ++i) power += force[i] * v[i];
+        // The length of P to A, that of O to A and the angle of O to Q, a time after.
+        const auto measured = [&](double time) {
+            std::array<double, 5> x{};
+            for (std::size_t i = 0; i < 5; ++i) x[i] = q[i] + time * v[i];
+            const double c = std::cos(x[4]), s = std::sin(x[4]);
+            return std::array<double, 3>{
+                std::hypot(x[2] + 0.5 * c - 0.2 * s - x[0], x[3] + 0.5 * s + 0.2 * c - x[1]),
+                std::hypot(x[0], x[1] - 1), std::atan2(x[3] - 0.5 * s - 1, x[2] - 0.5 * c)};
+        };
+        const auto after = measured(h), before = measured(-h);
+        const auto rate = [&](std::size_t k) { return (after[k] - before[k]) / (2 * h); };
+        const double expected = 2 * std::cos(t) * rate(2) + 0.5 * v[4] - 0.5 * rate(0) * rate(0) -
+                                0.7 * rate(1) * rate(1) - 0.1 * v[4] * v[4];
+        qInfo("power %.6f, difference %.1e", power, power - expected);
+        QVERIFY(std::abs(power - expected) < 1e-8);  // measured 1e-10 or less, of the differences
     }
     /// A crank that is driven has no freedom left, and its end goes around at the given speed.
     void aDrivenCrankTurnsAtItsSpeed() {
@@ -208,6 +239,19 @@ class MechanismTest : public QObject {
         QCOMPARE(of.system.parts.find<Constraint>()->names,
                  (std::vector<std::string>{"crank", "coupler", "rocker"}));
         QCOMPARE(of.system.parts.find<Wall>()->names, std::vector<std::string>{"stop"});
+    }
+    /// Gaps of straight walls, discs and boxes are distances, and have the names of the walls.
+    void gapsAreDistances() {
+        const Mechanical of = mechanical(R"("points": {"A": {"mass": 1, "at": [1, 2]}}, "walls": {
+            "line": {"through": [0, 1], "normal": [3, 4]}, "disc": {"centre": [1, 5], "radius": 1},
+            "ring": {"centre": [1, 1], "radius": 3, "inside": true}, "box": {"corner": [4, 3], "opposite": [0, 0]}})");
+        const Wall& wall = *of.system.parts.find<Wall>();
+        QCOMPARE(wall.names, (std::vector<std::string>{"line", "disc", "ring", "box_left", "box_right",
+                                                       "box_bottom", "box_top"}));
+        std::vector<double> gap(7), byPlace(14), byTime(7);
+        wall.first(wall.model.get(), 0, of.start.x.data(), gap.data(), byPlace.data(), byTime.data());
+        const std::vector<double> expected{1.4, 4, 4.0 / 3, 1, 3, 2, 1};
+        QVERIFY(largestDifference(gap, expected) < 1e-14);
     }
     /// A start of one's own takes the place of the model's, and is written back into the model.
     void theStartIsTheModels() {
