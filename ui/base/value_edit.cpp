@@ -64,6 +64,9 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
         for (const std::string& component : info.components) names << QString::fromStdString(component);
         tip += tr("\nNumbers or expressions, separated by commas: %1.").arg(names.join(", "));
     }
+    if (info.type == FieldType::names) tip += tr("\nNames, separated by commas.");
+    if (info.type == FieldType::terms)
+        tip += tr("\nA formula, or formulas by name: {\"kinetic\": \"p_x^2/2\", \"potential\": \"x^2/2\"}.");
     if (info.type == FieldType::constants)
         tip += tr("\nNames and numbers, separated by commas: a = 1, b = 2.");
     input->setToolTip(tip.trimmed());
@@ -97,12 +100,16 @@ void ValueEdit::submitText() {
         emit edited(numbersOrExpressions(shown_));
     } else if (info_.type == FieldType::constants) {
         emit edited(constantsFrom(shown_));
+    } else if (info_.type == FieldType::terms && !shown_.trimmed().startsWith('{')) {
+        emit edited(Value(shown_.toStdString()));
+    } else if (info_.type == FieldType::names) {
+        emit edited(formulasFrom(shown_));  // by commas
     } else if (info_.type == FieldType::formulas) {
         const Value formulas = formulasFrom(shown_);
         emit edited(formulas.asArray().empty() ? info_.fallback : formulas);
     } else if (info_.type == FieldType::definitions) {
         emit edited(definitionsFrom(shown_));
-    } else if (info_.type == FieldType::json) {
+    } else if (info_.type == FieldType::json || info_.type == FieldType::terms) {
         try {
             emit edited(parseJson(shown_.toStdString()));
         } catch (const InvalidScene&) {
@@ -144,6 +151,7 @@ void ValueEdit::show(const Value& value) {
     if (!text_) return;
     const QString text = info_.type == FieldType::constants     ? constantsText(value)
                          : info_.type == FieldType::formulas    ? formulasText(value)
+                         : info_.type == FieldType::names       ? formulasText(value)
                          : info_.type == FieldType::definitions ? definitionsText(value)
                                                                 : fieldText(value);
     const bool isTyping = text_->hasFocus() && text_->text() != shown_;

@@ -25,10 +25,15 @@ namespace extremal {
 
 namespace {
 
-/// Its coordinates are named by the user, and it has a separate editor.
-bool isTyped(const ModelEntry& entry) {
+/// Its coordinates are named by the user, so that the initial data of another one do not fit.
+bool hasOwnNames(const ModelEntry& entry) {
     return std::any_of(entry.item.parameters.begin(), entry.item.parameters.end(),
                        [](const FieldInfo& field) { return field.type == FieldType::names; });
+}
+/// It is given by a Lagrangian, which has a separate editor.
+bool isTyped(const ModelEntry& entry) {
+    return std::any_of(entry.item.parameters.begin(), entry.item.parameters.end(),
+                       [](const FieldInfo& field) { return field.key == "lagrangian"; });
 }
 
 bool isPlainText(const Value& value) { return value.isNumber() || value.isString() || value.isBool(); }
@@ -236,7 +241,7 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     menu()->addAction(tr("Reset parameters"), this, [this] {
         if (const ModelEntry* entry = findModel(workspace_.scene().model.type)) {
             std::vector<Edit> edits{{"/model", exampleModel(*entry)}};
-            if (isTyped(*entry)) edits.push_back({"/initial", std::nullopt});
+            if (hasOwnNames(*entry)) edits.push_back({"/initial", std::nullopt});
             workspace_.edit(edits, tr("Reset parameters"));
         }
     });
@@ -301,7 +306,8 @@ void ScenePanel::rebuild() {
 void ScenePanel::startFromTwoPositions() {
     const auto resolved = workspace_.resolved();
     const System& system = *resolved->system;
-    if (resolved->scene.initial.second == Initial::Second::position || !system.hasCoordinates()) return;
+    const Mechanical* const lagrangian = system.parts.find<Mechanical>();  // whose action joins them
+    if (resolved->scene.initial.second == Initial::Second::position || !lagrangian) return;
     for (const ResolvedScheme& scheme : resolved->schemes) {
         const SchemeSpec& spec = scheme.spec;
         if (spec.tolerance) continue;
