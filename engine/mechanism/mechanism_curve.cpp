@@ -24,6 +24,10 @@ MechanismCurve::MechanismCurve(const Table<double>& ofStep, const std::optional<
                                " Lobatto nodes do not tell apart, where constraints hold",
                            "polynomials");
     endSlope = samples({1.0}).slope;
+    std::vector<double> parts;
+    for (int k = 0; k <= partsPerFunction * m; ++k)
+        parts.push_back(static_cast<double>(k) / (partsPerFunction * m));
+    atParts = samples(parts);
     fit = dense::inverse<double>(ends);
     atGauss = {gauss<double>(m), {}};
     if (forces)

@@ -50,8 +50,16 @@ struct MechanismCurve {
     Eigen::MatrixXd atPlaces;  ///< (j, a): phi_a(e_j)
     Eigen::MatrixXd fit;       ///< the inverse of its rows j = 1..m
     Eigen::MatrixXd endSlope;  ///< (0, a): phi_a'(1)
-    Nodes atForces;            ///< of the forces
-    Nodes atGauss;             ///< the m Gauss nodes, where rolling conditions hold
+    /// Places that are looked at in every step (gaps of walls): k / (8 m), k = 0..8 m.
+    static constexpr int partsPerFunction = 8;
+    Samples atParts;
+    /// Which of them tau is; -1: another one.
+    int partOf(double tau) const {
+        const int parts = partsPerFunction * unknowns(), k = static_cast<int>(tau * parts + 0.5);
+        return k >= 0 && k <= parts && static_cast<double>(k) / parts == tau ? k : -1;
+    }
+    Nodes atForces;  ///< of the forces
+    Nodes atGauss;   ///< the m Gauss nodes, where rolling conditions hold
 };
 
 }  // namespace extremal

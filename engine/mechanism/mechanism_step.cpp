@@ -44,6 +44,7 @@ public:
     double stepSize() const override { return h_; }
     void setStep(double h) override { h_ = h; }
 
+        node_ = gradient_ = Vector::Zero(2 * d);
     void begin(State& state) override {
         state.memory.clear();
         carryQ_.setZero();
@@ -80,7 +81,7 @@ public:
 
     /// The curve, and L_v of its velocity.
     void denseOutput(double tau, std::span<double> x) const override {
-        const int d = dimension(), m = curve_.unknowns();
+        const int d = dimension();
         if (tau <= 0 || tau >= 1) {
             for (int k = 0; k < d; ++k) {
                 x[static_cast<std::size_t>(k)] = tau <= 0 ? z_(k) : q1_(k);
@@ -88,18 +89,11 @@ public:
             }
             return;
         }
-        const MechanismCurve::Samples here = curve_.samples({tau});
-        Vector q = z_.head(d), v = Vector::Zero(d), both(2 * d);
-        for (int a = 0; a < m; ++a) {
-            q += here.value(0, a) * Y_.segment(a * d, d);
-            v += here.slope(0, a) / h_ * Y_.segment(a * d, d);
-        }
-        const auto& L = mechanism_.mechanics();
-        L.gradient(L.model.get(), start_ + tau * h_, q.data(), v.data(), both.data());
-        for (int k = 0; k < d; ++k) {
-            x[static_cast<std::size_t>(k)] = q(k);
-            x[static_cast<std::size_t>(d + k)] = both(d + k);
-        }
+        const int part = curve_.partOf(tau);
+        if (part >= 0)
+            onCurve(tau, curve_.atParts, part, x);
+        else
+            onCurve(tau, curve_.samples({tau}), 0, x);
     }
 
     std::string tangentProblem() const override { return "constraints and forces are not varied yet"; }
@@ -173,6 +167,22 @@ private:
                 Y += curve_.fit(a, j) * (t * velocity_ + t * t / 2 * acceleration_);
             }
         }
+    /// (q, L_v) at tau, with the functions there in a row of `at`.
+    void onCurve(double tau, const MechanismCurve::Samples& at, int row, std::span<double> x) const {
+        const int d = dimension();
+        auto q = node_.head(d), v = node_.tail(d);
+        q = z_.head(d);
+        v.setZero();
+        for (int a = 0; a < curve_.unknowns(); ++a) {
+            q += at.value(row, a) * Y_.segment(a * d, d);
+            v += at.slope(row, a) / h_ * Y_.segment(a * d, d);
+        }
+        const auto& L = mechanism_.mechanics();
+        L.gradient(L.model.get(), start_ + tau * h_, node_.data(), node_.data() + d, gradient_.data());
+        std::copy_n(node_.data(), d, x.data());
+        std::copy_n(gradient_.data() + d, d, x.data() + d);
+    }
+
         guessImpulses(h);
         return true;
     }
@@ -324,6 +334,7 @@ private:
     Vector p0_, q1_, p1_, carryQ_, carryP_;  ///< carries: lost to rounding in q_1 and p_1
     Vector velocity_, acceleration_, multipliers_, endVelocity_, kappa_, masses_, startMasses_;
     Vector forces_;
+    mutable Vector node_, gradient_;  ///< of dense output
     double start_ = 0, nearness_ = 0;
     StepReport report_;
 };

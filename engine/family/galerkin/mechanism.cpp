@@ -16,6 +16,7 @@
 #include "engine/integrator/condensed.hpp"
 #include "engine/mechanism/impact_step.hpp"
 #include "engine/mechanism/mechanism.hpp"
+#include "engine/mechanism/mechanism_curve.hpp"
 #include "engine/mechanism/mechanism_step.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/quadrature/catalog.hpp"
@@ -107,14 +108,13 @@ Properties describeMechanism(const Discretization& d, const System& system,
 }
 
 std::unique_ptr<Integrator> mechanismStep(const System& system, const Discretization& d, double step) {
-    constexpr int placesPerFunction = 8;  // of a curve of degree s gaps are looked at in 8 s places
     const Discretization plain = ofLagrangian(d);
     const Table<double> table = tableOf(plain.space, plain.quadrature);
     std::optional<Rule<double>> forces;
     if (const auto rule = ruleOfForces(d)) forces = makeRule<double>(*rule);
     auto own = makeMechanismStep(system.parts, table, forces, step, solverPolicy(d.solver, system));
     if (!system.parts.find<Wall>()) return own;
-    return makeImpactStep(system.parts, std::move(own), placesPerFunction * table.unknowns());
+    return makeImpactStep(system.parts, std::move(own), MechanismCurve::partsPerFunction * table.unknowns());
 }
 
 void checkMechanism(const SchemeCase& scheme, Findings& findings) {
