@@ -23,30 +23,37 @@ std::vector<std::string> namesOf(std::size_t n) {
 
 class WithExponents final : public Accompanied {
 public:
-    WithExponents(std::unique_ptr<Integrator> scheme, std::size_t n)
-        : Accompanied(std::move(scheme), numbersOf(n), namesOf(n)), n_(n) {}
+    WithExponents(std::unique_ptr<Integrator> scheme, std::size_t n, std::size_t free, TangentBasis basis)
+        : Accompanied(std::move(scheme), numbersOf(n, free), namesOf(free)),
+          n_(n),
+          free_(free),
+          basis_(std::move(basis)) {}
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<WithExponents>(*this); }
 
 private:
     /// The time of the start, the sums of logarithms, and the frame, column after column.
-    static std::size_t numbersOf(std::size_t n) { return 1 + n + n * n; }
+    static std::size_t numbersOf(std::size_t n, std::size_t free) { return 1 + free + n * free; }
     void startCarrying(const State& state, std::span<double> carried) override {
         carried[0] = state.t;
-        for (std::size_t i = 0; i < n_; ++i) carried[1 + n_ + i * n_ + i] = 1;
+        double* const frame = carried.data() + 1 + free_;
+        for (std::size_t i = 0; i < free_; ++i) frame[i * n_ + i] = 1;
+        if (!basis_) return;
+        const std::vector<double> basis = basis_(state.t, state.x.data());
+        std::copy(basis.begin(), basis.end(), frame);
     }
     void carry(const State& /*before*/, const State& after, const StepReport& report,
                std::span<double> carried) override {
-        const std::span<double> sums = carried.subspan(1, n_), frame = carried.subspan(1 + n_);
+        const std::span<double> sums = carried.subspan(1, free_), frame = carried.subspan(1 + free_);
         if (report.event != StepEvent::none || !applyTangent(frame))
             std::fill(frame.begin(), frame.end(), std::numeric_limits<double>::quiet_NaN());
         orthonormalise(frame, sums);
         const double time = std::abs(after.t - carried[0]);
-        for (std::size_t i = 0; i < n_; ++i) values_[i] = sums[i] / time;
-        values_[n_] = std::accumulate(sums.begin(), sums.end(), 0.0) / time;
+        for (std::size_t i = 0; i < free_; ++i) values_[i] = sums[i] / time;
+        values_[free_] = std::accumulate(sums.begin(), sums.end(), 0.0) / time;
     }
     /// Gram and Schmidt, each column twice, so that the frame is orthogonal to round-off; ln R_ii is added.
     void orthonormalise(std::span<double> frame, std::span<double> sums) const {
-        for (std::size_t j = 0; j < n_; ++j) {
+        for (std::size_t j = 0; j < free_; ++j) {
             const std::span<double> column = frame.subspan(j * n_, n_);
             for (int again = 0; again < 2; ++again)
                 for (std::size_t i = 0; i < j; ++i) {
@@ -61,14 +68,16 @@ private:
         }
     }
 
-    std::size_t n_;
+    std::size_t n_, free_;  ///< numbers of a variation, and how many are independent
+    TangentBasis basis_;
 };
 
 }  // namespace
 
-std::unique_ptr<Integrator> withExponents(std::unique_ptr<Integrator> scheme) {
+std::unique_ptr<Integrator> withExponents(std::unique_ptr<Integrator> scheme, TangentBasis basis, int free) {
     const std::size_t n = scheme->tangentSize();
-    return std::make_unique<WithExponents>(std::move(scheme), n);
+    const std::size_t all = basis ? static_cast<std::size_t>(free) : n;
+    return std::make_unique<WithExponents>(std::move(scheme), n, all, std::move(basis));
 }
 
 }  // namespace extremal

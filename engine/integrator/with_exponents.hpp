@@ -12,13 +12,16 @@
 #include <memory>
 
 #include "engine/integrator/integrator.hpp"
+#include "engine/model/tangent_basis.hpp"
 
 namespace extremal {
 
 /// At most so many variations.
 inline constexpr std::size_t mostExponents = 64;
 
-/// The scheme must have a tangentSize(), at most mostExponents.
-std::unique_ptr<Integrator> withExponents(std::unique_ptr<Integrator> scheme);
+/// The scheme must have a tangentSize(), at most mostExponents. `free`: how many variations `basis` has,
+/// where there is one; there are so many exponents.
+std::unique_ptr<Integrator> withExponents(std::unique_ptr<Integrator> scheme, TangentBasis basis = {},
+                                          int free = 0);
 
 }  // namespace extremal

@@ -37,15 +37,16 @@ void fillIrregularly(double* w, std::size_t n, std::size_t which) {
 
 /// How many variations are carried along: of Q, all of them or some representatives, and w.
 struct Size {
-    Size(std::size_t tangent, const VariationPlan& plan)
+    Size(std::size_t tangent, std::size_t allowed, const VariationPlan& plan)
         : n(tangent),
+          free(allowed),
           isWhole(n <= mostColumns),
           columns(!plan.map ? 0
-                  : isWhole ? n
-                            : representatives),
+                  : isWhole ? free
+                            : std::min(representatives, free)),
           vectors(plan.vector ? 1 : 0) {}
-    std::size_t n;
-    bool isWhole;  ///< all variations are carried, and M is known
+    std::size_t n, free;  ///< numbers of a variation, and how many are independent
+    bool isWhole;         ///< all variations are carried, and M is known
     std::size_t columns, vectors;
 
     /// What is carried: the numbers of `Number`, the forms at the start, Q column after column, w.
@@ -58,7 +59,7 @@ std::vector<std::string> namesOf(const System& system, const Size& size) {
     std::vector<std::string> names;
     if (size.columns > 0) {
         names = {"symplecticity", "symplecticity_accumulated", "volume", "floquet_trace"};
-        if (size.n == 2 * system.coordinates.size())
+        if (size.n == 2 * system.coordinates.size() && size.free == size.n)
             for (const Coordinate& c : system.coordinates) names.push_back("floquet_trace." + c.name);
     }
     if (size.vectors > 0) names.insert(names.end(), {"lyapunov", "megno"});
@@ -67,18 +68,19 @@ std::vector<std::string> namesOf(const System& system, const Size& size) {
 
 class WithVariations final : public Accompanied {
 public:
-    WithVariations(std::unique_ptr<Integrator> scheme, const System& system, const Size& size)
+    WithVariations(std::unique_ptr<Integrator> scheme, const System& system, const Size& size,
+                   TangentBasis basis)
         : Accompanied(std::move(scheme), size.carried(), namesOf(system, size)),
           form_(system),
           isUnitary_(system.isUnitary),
-          size_(size) {
+          size_(size),
+          basis_(std::move(basis)) {
         const auto n = static_cast<Index>(size.n);
-        const std::size_t moved =
-            size.isWhole && size.columns > 0 ? size.columns : size.columns + size.vectors;
+        const std::size_t moved = isMapKnown() ? size.columns : size.columns + size.vectors;
         M_ = Matrix::Zero(n, static_cast<Index>(moved));
         product_ = Matrix::Zero(n, static_cast<Index>(size.columns));
         before_.assign(size.columns * size.columns, 0);
-        if (size.isWhole) lu_ = Eigen::PartialPivLU<Matrix>(n);
+        if (size.isWhole) lu_ = Eigen::PartialPivLU<Matrix>(static_cast<Index>(size.free));
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<WithVariations>(*this); }
 
@@ -92,6 +94,8 @@ private:
         double* const Q = form + size_.columns * size_.columns;
         return {carried.data(), form, Q, Q + size_.columns * size_.n};
     }
+    /// Whether M is computed as a matrix of all variations.
+    bool isMapKnown() const { return size_.isWhole && size_.columns > 0 && !basis_; }
     std::span<double> tracesSaid() {
         return std::span(values_).subspan(traces, values_.size() - traces - 2 * size_.vectors);
     }
@@ -100,11 +104,12 @@ private:
         const Carried all = parts(carried);
         all.number[Size::startTime] = state.t;
         for (std::size_t j = 0; j < size_.columns; ++j)
-            if (size_.isWhole)
+            if (size_.isWhole && !basis_)
                 all.Q[j * size_.n + j] = 1;
             else
                 fillIrregularly(all.Q + j * size_.n, size_.n, j + 1);
         if (size_.vectors > 0) fillIrregularly(all.w, size_.n, 0);
+        if (basis_) startOnManifold(state, all);
         forms(state.x.data(), all.Q, all.form);
     }
     void carry(const State& before, const State& after, const StepReport& report,
@@ -114,8 +119,8 @@ private:
         Eigen::Map<Matrix> Q(all.Q, n, columns);
         Eigen::Map<Eigen::VectorXd> w(all.w, size_.vectors > 0 ? n : 0);
         std::fill(values_.begin(), values_.end(), unknown);
-        const bool isMapKnown = size_.isWhole && columns > 0;
-        if (isMapKnown) {
+        if (basis_ && size_.isWhole && columns > 0) measureOnManifold(before, after, report);
+        if (isMapKnown()) {
             M_.setIdentity();
         } else {
             M_.leftCols(columns) = Q;
@@ -124,10 +129,12 @@ private:
         const std::span<double> moved(M_.data(), static_cast<std::size_t>(M_.size()));
         if (report.event != StepEvent::none || !applyTangent(moved)) M_.setConstant(unknown);
         if (columns > 0) {
-            if (isMapKnown) {
+            if (isMapKnown()) {
                 measureStep(before.x.data(), after.x.data());
                 product_.noalias() = M_.lazyProduct(Q);
                 Q = product_;
+            } else if (size_.isWhole) {
+                Q = M_.leftCols(columns);
             } else {
                 before_.assign(size_.columns * size_.columns, 0);
                 forms(before.x.data(), all.Q, before_.data());
@@ -138,11 +145,51 @@ private:
             measureProduct(after.x.data(), all, Q);
         }
         if (size_.vectors == 0) return;
-        if (isMapKnown)
+        if (isMapKnown())
             w = (M_.lazyProduct(w)).eval();
         else
             w = M_.col(columns);
         grow(after.t, all.number, w, report.step);
+    }
+
+    Matrix basisAt(const State& state) const {
+        const std::vector<double> columns = basis_(state.t, state.x.data());
+        const auto n = static_cast<Index>(size_.n);
+        return Eigen::Map<const Matrix>(columns.data(), n, static_cast<Index>(columns.size()) / n);
+    }
+    /// Of what begins at random the part along the manifold; of Q, where all are carried, the basis.
+    void startOnManifold(const State& state, const Carried& all) {
+        const auto n = static_cast<Index>(size_.n), columns = static_cast<Index>(size_.columns);
+        const Matrix basis = basisAt(state);
+        Eigen::Map<Matrix> Q(all.Q, n, columns);
+        if (size_.isWhole)
+            Q = basis.leftCols(columns);
+        else
+            Q = (basis * (basis.transpose() * Q)).colwise().normalized().eval();
+        Eigen::Map<Eigen::VectorXd> w(all.w, size_.vectors > 0 ? n : 0);
+        if (size_.vectors > 0) w = (basis * (basis.transpose() * w)).normalized().eval();
+    }
+    /// The step on a basis of variations along the manifold.
+    void measureOnManifold(const State& before, const State& after, const StepReport& report) {
+        Matrix moved = basisAt(before);
+        const auto free = static_cast<Index>(size_.free);
+        before_.assign(size_.columns * size_.columns, 0);
+        forms(before.x.data(), moved.data(), before_.data());
+        const double form = skewDeterminant(before_, free);
+        const std::span<double> columns(moved.data(), static_cast<std::size_t>(moved.size()));
+        if (report.event != StepEvent::none || !applyTangent(columns)) return;
+        values_[step] = defect(after.x.data(), moved.data(), before_.data(), 1);
+        values_[volume] = std::sqrt(skewDeterminant(now_, free) / form) - 1;
+    }
+    /// The determinant of the skew matrix whose upper half forms() has filled.
+    double skewDeterminant(const std::vector<double>& upper, Index n) {
+        Matrix skew = Matrix::Zero(n, n);
+        for (Index i = 0; i < n; ++i)
+            for (Index j = i + 1; j < n; ++j) {
+                skew(i, j) = upper[static_cast<std::size_t>(i * n + j)];
+                skew(j, i) = -skew(i, j);
+            }
+        return lu_.compute(skew).determinant();
     }
 
     /// w(a_i, a_j) of columns into (i, j), i < j; of a unitary space the inner products into (j, i).
@@ -184,7 +231,7 @@ private:
         double& power = all.number[Size::power];
         const double size = size_.isWhole ? Q.cwiseAbs().maxCoeff() : Q.colwise().norm().maxCoeff();
         values_[accumulated] = defect(y, all.Q, all.form, std::exp2(-2 * power)) / (size * size);
-        if (size_.isWhole) {
+        if (isMapKnown()) {
             const double unit = std::exp2(power);
             const std::span<double> said = tracesSaid();
             said[0] = unit * Q.trace();
@@ -212,6 +259,7 @@ private:
     SymplecticForm form_;
     bool isUnitary_;
     Size size_;
+    TangentBasis basis_;
     Matrix M_, product_;
     Eigen::PartialPivLU<Matrix> lu_;
     std::vector<double> before_, now_;
@@ -220,10 +268,11 @@ private:
 }  // namespace
 
 std::unique_ptr<Integrator> withVariations(std::unique_ptr<Integrator> scheme, const System& system,
-                                           const VariationPlan& plan) {
+                                           const VariationPlan& plan, TangentBasis basis, int free) {
     if (!(plan.map || plan.vector) || scheme->tangentSize() == 0) return scheme;
-    const Size size(scheme->tangentSize(), plan);
-    return std::make_unique<WithVariations>(std::move(scheme), system, size);
+    const std::size_t n = scheme->tangentSize();
+    const Size size(n, basis ? static_cast<std::size_t>(free) : n, plan);
+    return std::make_unique<WithVariations>(std::move(scheme), system, size, std::move(basis));
 }
 
 }  // namespace extremal

@@ -16,6 +16,10 @@
 /// then that of their pairs, of length 1, and there is neither volume nor trace; of wave functions the inner
 /// products are compared as well, U^* U = 1.
 ///
+/// On a manifold of states (constraints) M, P and w act on variations along it, in an orthonormal basis B of
+/// them at each node: symplecticity is max |(M B)^T Om_1 M B - B^T Om_0 B|, the volume that of Om, the root
+/// of det (M B)^T Om_1 M B / det B^T Om_0 B, and there is no trace.
+///
 /// Variations and sums are in the memory of the state, behind that of the scheme. Where a step has no tangent
 /// map, or did more than go on (StepReport::event), everything that follows is unknown. What this costs is
 /// part of the cost of the run: a scene that observes none of it is integrated without.
@@ -25,6 +29,7 @@
 
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/system.hpp"
+#include "engine/model/tangent_basis.hpp"
 
 namespace extremal {
 
@@ -37,8 +42,9 @@ struct VariationPlan {
     bool isEmpty() const { return !map && !vector && !errors && !frame; }
 };
 
-/// The same integrator where nothing is wanted, or it has no tangent map.
+/// The same integrator where nothing is wanted, or it has no tangent map. `free`: how many variations
+/// `basis` has, where there is one.
 std::unique_ptr<Integrator> withVariations(std::unique_ptr<Integrator> scheme, const System& system,
-                                           const VariationPlan& plan);
+                                           const VariationPlan& plan, TangentBasis basis = {}, int free = 0);
 
 }  // namespace extremal

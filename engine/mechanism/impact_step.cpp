@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
+#include "engine/mechanism/impact_variation.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/mechanism/own_copy.hpp"
+#include "engine/mechanism/said_of_forces.hpp"
 #include "engine/model/parts/wall.hpp"
 
 namespace extremal {
@@ -43,7 +45,12 @@ struct Rhythm {
 class ImpactStep final : public Integrator {
 public:
     ImpactStep(const Parts& parts, std::unique_ptr<Integrator> inner, int places)
-        : mechanism_(parts), wall_(*parts.find<Wall>()), inner_(std::move(inner)), places_(places) {
+        : mechanism_(parts),
+          wall_(*parts.find<Wall>()),
+          variation_(parts),
+          said_(parts, mechanism_.dimension()),
+          inner_(std::move(inner)),
+          places_(places) {
         h_ = inner_->stepSize();
         const auto n = static_cast<std::size_t>(wall_.count());
         const auto d = static_cast<std::size_t>(mechanism_.dimension());
@@ -58,9 +65,8 @@ public:
         at_.x.resize(2 * d);
         values_.resize(inner_->quantities().size());
         sums_.resize(values_.size());
-        work_ = -1;
-        for (std::size_t i = 0; i < values_.size(); ++i)
-            if (inner_->quantities()[i].name == "work") work_ = static_cast<int>(i);
+        saysForces_ = values_.size() == said_.quantities().size() &&
+                      inner_->quantities()[SaidOfForces::work].name == "work";
     }
     double stepSize() const override { return h_; }
     void setStep(double h) override {
@@ -80,6 +86,7 @@ public:
         inner_->setStep(h_);
         pieces_.clear();
         impacts_.clear();
+        contacts_.clear();
         std::fill(openUntil_.begin(), openUntil_.end(), 0.0);
         before_ = state;
         const bool goesIntoWall = fastestApproach(state) >= 0;
@@ -103,7 +110,35 @@ public:
         inner_->denseOutput(tau, x);
     }
 
-    std::string tangentProblem() const override { return "impacts are not varied yet"; }
+    std::size_t tangentSize() const override { return inner_->tangentSize(); }
+    std::string tangentProblem() const override { return inner_->tangentProblem(); }
+    /// Unknown where a step begins with an impact, or several happen at one time.
+    bool applyTangent(std::span<double> W) override {
+        if (pieces_.empty()) return impacts_.empty() && inner_->applyTangent(W);
+        const Eigen::Index rows = 2 * dimension(), columns = static_cast<Eigen::Index>(W.size()) / rows;
+        Eigen::Map<Eigen::MatrixXd> given(W.data(), rows, columns);
+        Eigen::MatrixXd moved = given;
+        Eigen::RowVectorXd later = Eigen::RowVectorXd::Zero(columns);
+        std::size_t next = 0;
+        for (std::size_t k = 0; k < pieces_.size(); ++k) {
+            auto* const step = dynamic_cast<VariedStep*>(&*pieces_[k].step);
+            if (!step) return false;
+            if (next < contacts_.size() && contacts_[next].pieces <= k) return false;
+            if (next < contacts_.size() && contacts_[next].pieces == k + 1) {
+                const Contact& contact = contacts_[next++];
+                if (!variation_.throughContact(*step, contact.wall, contact.before, moved, later))
+                    return false;
+                continue;
+            }
+            const bool isLast = k + 1 == pieces_.size();
+            const Eigen::RowVectorXd length = isLast ? -later : Eigen::RowVectorXd::Zero(columns).eval();
+            if (!step->vary(moved, later, length)) return false;
+            if (isLast) later.setZero();
+        }
+        if (next < contacts_.size() || !variation_.toNode(end_, moved, later)) return false;
+        given = moved;
+        return true;
+    }
 
     std::span<const Quantity> quantities() const override { return inner_->quantities(); }
     void measure(const State& state, double* values) const override {
@@ -126,6 +161,12 @@ private:
     struct Piece {
         double from, to;
         OwnCopy<Integrator> step;
+    };
+    /// An impact after so many pieces.
+    struct Contact {
+        std::size_t pieces;
+        int wall;
+        State before;
     };
     /// A gap that closes: within (from, to] of the step last taken.
     struct Crossing {
@@ -310,6 +351,7 @@ private:
             impact.t = s.t;
             const double energy = energyAt(s), before = speed(k, s)->value,
                          after = -wall_.restitution[static_cast<std::size_t>(k)] * before;
+            contacts_.push_back({pieces_.size(), k, s});
             const auto impulse = mechanism_.strike(s.t, s.x.data(), s.x.data() + dimension(), normal(k),
                                                    after - byTime_[static_cast<std::size_t>(k)]);
             if (!impulse) return false;
@@ -318,11 +360,22 @@ private:
             impact.speedAfter = after;
             impact.energyLoss = energy - energyAt(s);
             impacts_.push_back(impact);
+            if (saysForces_) sayImpact(impact, s);
             if (impacts_.size() < 2 || impacts_[impacts_.size() - 2].wall != k ||
                 impacts_[impacts_.size() - 2].t != s.t)
                 rhythm_[static_cast<std::size_t>(k)].add(s.t);
         }
         return false;
+    }
+
+    /// Adds an impact to what is said of the step; the gaps are known at `s`.
+    void sayImpact(const Impact& impact, const State& s) {
+        sums_[SaidOfForces::work] -= impact.energyLoss;
+        sums_[SaidOfForces::expansion] +=
+            2 * std::log(wall_.restitution[static_cast<std::size_t>(impact.wall)]);
+        for (int i = 0; i < dimension(); ++i)
+            velocity_[static_cast<std::size_t>(i)] = impact.impulse * normal(impact.wall)[i];
+        said_.addImpulse(s.t, s.x.data(), velocity_.data(), sums_.data());
     }
 
     void keepPiece(double from, double to, const State& end) {
@@ -352,7 +405,6 @@ private:
             const std::size_t known = impacts_.size();
             if (!strikeAll(s)) return fail(Outcome::accumulation, s.t);
             for (std::size_t i = known; i < impacts_.size(); ++i) {
-                if (work_ >= 0) sums_[static_cast<std::size_t>(work_)] -= impacts_[i].energyLoss;
                 const auto end = rhythm_[static_cast<std::size_t>(impacts_[i].wall)].end();
                 if (end && (until - *end) * ahead() >= 0) return fail(Outcome::accumulation, *end);
             }
@@ -395,16 +447,19 @@ private:
         inner_->setStep(h_);
         s.node = state.node + 1;
         state = s;
+        end_ = s;
         return report;
     }
 
     Mechanism mechanism_;
     Wall wall_;
+    ImpactVariation variation_;
+    SaidOfForces said_;
     OwnCopy<Integrator> inner_;
     int places_;
     double h_ = 0;
-    double fastest_ = 0;  ///< the largest |v_i| that a wall has seen
-    int work_ = -1;       ///< which quantity of the scheme is its work; -1: it does not say
+    double fastest_ = 0;       ///< the largest |v_i| that a wall has seen
+    bool saysForces_ = false;  ///< its quantities are those of SaidOfForces
     std::vector<double> gaps_, byPlace_, byTime_, samples_, velocity_, values_, sums_;
     std::vector<double>
         openUntil_;  ///< part of the step at hand up to which the scheme's own steps stay outside
@@ -412,7 +467,8 @@ private:
     std::vector<Rhythm> rhythm_;
     std::vector<Impact> impacts_;  ///< of the last step
     std::vector<Piece> pieces_;    ///< of the last step, if it had impacts
-    State before_, at_, trial_;
+    std::vector<Contact> contacts_;
+    State before_, at_, trial_, end_;
 };
 
 }  // namespace

@@ -82,6 +82,15 @@ public:
     /// constraints: L_v(q, v) = p + normal J + g_q^T mu, g_q v + g_t = 0. Returns J; nothing where there is
     /// no solution.
     std::optional<double> strike(double t, const double* q, double* p, const double* normal, double target);
+    /// Moves variations of what project() was given to those of its result p, column after column: of the
+    /// place by dq, of the time by dt. `v` and `kappa` as it left them. False where there is no solution.
+    bool varyProjection(double t, const double* q, const Vector& v, const Vector& kappa,
+                        const Eigen::MatrixXd& dq, const Eigen::RowVectorXd& dt, Eigen::MatrixXd& dp);
+    /// The derivative of g_q v + g_t and of a v - b along dq, at a fixed velocity; `to` has its size.
+    void rateAlong(double t, const double* q, const Vector& v, const Vector& dq, Vector& to);
+    /// tr(F_v L_vv^-1) over the velocities that the conditions allow: the rate at which forces change volumes
+    /// of phase space. Not a number where it is not determined.
+    double expansion(double t, const double* q, const double* v);
     /// qdot = v and pdot = L_q + F + g_q^T lambda, of a state that need not be on the constraint.
     bool flow(double t, const double* q, const double* p, double* qdot, double* pdot, double feedback = 0);
     /// L_vv(k, k) where accelerate() was asked last.
@@ -105,6 +114,9 @@ public:
 private:
     /// Solves the equations of state_ for rhs_; false where they are singular.
     bool solveForState();
+    /// The derivatives by time of g_q^T kappa, and of g_q v + g_t and a v - b.
+    void byTimeOfConditions(double t, const double* q, const Vector& v, const Vector& kappa, Vector& reaction,
+                            Vector& rate);
 
     Mechanics<double> mechanics_;
     Conditions conditions_;

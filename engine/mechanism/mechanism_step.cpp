@@ -13,14 +13,18 @@
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/mechanism/mechanism_curve.hpp"
 #include "engine/mechanism/mechanism_equations.hpp"
+#include "engine/mechanism/said_of_forces.hpp"
+#include "engine/mechanism/step_variation.hpp"
+#include "engine/mechanism/varied_step.hpp"
 #include "engine/solve/step_continuation.hpp"
 
 namespace extremal {
 namespace {
 
 using Vector = Eigen::VectorXd;
+constexpr int mostVaried = 64;  ///< coordinates, of a tangent map with full matrices
 
-class MechanismStep final : public Integrator {
+class MechanismStep final : public Integrator, public VariedStep {
 public:
     MechanismStep(const Parts& parts, const Table<double>& table, const std::optional<Rule<double>>& forces,
                   double step, const SolverPolicy& policy, LinkedAlgebra algebra)
@@ -30,7 +34,8 @@ public:
                                          : denseEquations(mechanism_, curve_)),
           policy_(policy),
           tolerance_(toleranceOf<double>(policy)),
-          h_(step) {
+          h_(step),
+          said_(parts, mechanism_.dimension()) {
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
         Y_ = Vector::Zero(m * d);
         impulses_ = Vector::Zero(m * n);
@@ -39,12 +44,12 @@ public:
         p0_ = velocity_ = q1_ = p1_ = carryQ_ = carryP_ = endVelocity_ = masses_ = startMasses_ =
             Vector::Zero(d);
         forces_ = Vector::Zero(d);
+        node_ = gradient_ = Vector::Zero(2 * d);
     }
 
     double stepSize() const override { return h_; }
     void setStep(double h) override { h_ = h; }
 
-        node_ = gradient_ = Vector::Zero(2 * d);
     void begin(State& state) override {
         state.memory.clear();
         carryQ_.setZero();
@@ -96,15 +101,58 @@ public:
             onCurve(tau, curve_.samples({tau}), 0, x);
     }
 
-    std::string tangentProblem() const override { return "constraints and forces are not varied yet"; }
-
-    /// The work of forces and of constraints that move with time, in the last step.
-    std::span<const Quantity> quantities() const override {
-        static const Quantity work{"work", "", "W", ""};
-        return {&work, 1};
+    std::size_t tangentSize() const override {
+        return dimension() <= mostVaried ? 2 * static_cast<std::size_t>(dimension()) : 0;
     }
+    std::string tangentProblem() const override {
+        return "steps with constraints or forces are varied for up to " + std::to_string(mostVaried) +
+               " coordinates";
+    }
+    bool applyTangent(std::span<double> W) override {
+        const Eigen::Index rows = 2 * dimension(), columns = static_cast<Eigen::Index>(W.size()) / rows;
+        Eigen::Map<Eigen::MatrixXd> given(W.data(), rows, columns);
+        Eigen::MatrixXd moved = given;
+        const Eigen::RowVectorXd fixed = Eigen::RowVectorXd::Zero(columns);
+        if (!vary(moved, fixed, fixed)) return false;
+        given = moved;
+        return true;
+    }
+    bool vary(Eigen::MatrixXd& W, const Eigen::RowVectorXd& start,
+              const Eigen::RowVectorXd& length) override {
+        using Matrix = Eigen::MatrixXd;
+        const int d = dimension(), m = curve_.unknowns(), n = constraints();
+        const Eigen::Index columns = W.cols();
+        if (!variation_) variation_.emplace(mechanism_, curve_);
+        Matrix z = Matrix::Zero((m + 1) * d, columns), impulses = Matrix::Zero(m * n, columns);
+        z.topRows(d) = W.topRows(d);
+        const StepVariation::Step step{start_, h_, z_, impulses_};
+        const StepVariation::Directions along{z, impulses, start, length};
+        variation_->evaluate(step, along);
+        Vector x;
+        for (Eigen::Index c = 0; c < columns; ++c) {
+            x = variation_->residual().col(c);
+            x.segment((m - 1) * d, d) += W.col(c).tail(d);
+            equations_->solve(x);
+            z.col(c).tail(m * d) = -x.head(m * d);
+            impulses.col(c) = -x.tail(m * n);
+        }
+        variation_->evaluate(step, along);
+        const Matrix dq = z.topRows(d) + z.middleRows(m * d, d);
+        Matrix dp = W.bottomRows(d) + variation_->impulse();
+        if (!mechanism_.varyProjection(start_ + h_, q1_.data(), endVelocity_, kappa_, dq, start + length, dp))
+            return false;
+        W.topRows(d) = dq;
+        W.bottomRows(d) = dp;
+        return W.allFinite();
+    }
+
+    /// The work of forces and of constraints that move with time, in the last step, and what forces do
+    /// besides (said_of_forces.hpp).
+    std::span<const Quantity> quantities() const override { return said_.quantities(); }
     void measure(const State&, double* values) const override {
-        values[0] = workOfForces() + workOfConstraints();
+        std::fill_n(values, said_.quantities().size(), 0.0);
+        if (mechanism_.force()) measureForces(values);
+        values[SaidOfForces::work] += workOfConstraints();
     }
 
     std::string about() const override { return equations_->about(); }
@@ -118,6 +166,22 @@ public:
 private:
     int dimension() const { return mechanism_.dimension(); }
     int constraints() const { return mechanism_.constraints(); }
+
+    /// (q, L_v) at tau, with the functions there in a row of `at`.
+    void onCurve(double tau, const MechanismCurve::Samples& at, int row, std::span<double> x) const {
+        const int d = dimension();
+        auto q = node_.head(d), v = node_.tail(d);
+        q = z_.head(d);
+        v.setZero();
+        for (int a = 0; a < curve_.unknowns(); ++a) {
+            q += at.value(row, a) * Y_.segment(a * d, d);
+            v += at.slope(row, a) / h_ * Y_.segment(a * d, d);
+        }
+        const auto& L = mechanism_.mechanics();
+        L.gradient(L.model.get(), start_ + tau * h_, node_.data(), node_.data() + d, gradient_.data());
+        std::copy_n(node_.data(), d, x.data());
+        std::copy_n(gradient_.data() + d, d, x.data() + d);
+    }
 
     /// Newton's method from what is known at the start, and a second opinion where its root is far from it.
     Outcome solve() {
@@ -167,22 +231,6 @@ private:
                 Y += curve_.fit(a, j) * (t * velocity_ + t * t / 2 * acceleration_);
             }
         }
-    /// (q, L_v) at tau, with the functions there in a row of `at`.
-    void onCurve(double tau, const MechanismCurve::Samples& at, int row, std::span<double> x) const {
-        const int d = dimension();
-        auto q = node_.head(d), v = node_.tail(d);
-        q = z_.head(d);
-        v.setZero();
-        for (int a = 0; a < curve_.unknowns(); ++a) {
-            q += at.value(row, a) * Y_.segment(a * d, d);
-            v += at.slope(row, a) / h_ * Y_.segment(a * d, d);
-        }
-        const auto& L = mechanism_.mechanics();
-        L.gradient(L.model.get(), start_ + tau * h_, node_.data(), node_.data() + d, gradient_.data());
-        std::copy_n(node_.data(), d, x.data());
-        std::copy_n(gradient_.data() + d, d, x.data() + d);
-    }
-
         guessImpulses(h);
         return true;
     }
@@ -292,20 +340,21 @@ private:
         return q1_.allFinite() && p1_.allFinite();
     }
 
-    /// h sum_i b_i F . v on the curve of the last step.
-    double workOfForces() const {
-        if (!mechanism_.force()) return 0;
+    /// Sums over the rule of the forces, on the curve of the last step.
+    void measureForces(double* values) const {
         const Force& force = *mechanism_.force();
         const int d = dimension();
+        Mechanism mechanism = mechanism_;  // its buffers
         Vector node(2 * d), F(d);
-        double sum = 0;
         for (int i = 0; i < curve_.atForces.nodes(); ++i) {
             curve_.motionAt(curve_.atForces, z_, i, h_, node);
-            force.value(force.model.get(), start_ + curve_.atForces.place(i) * h_, node.data(),
-                        node.data() + d, F.data());
-            sum += h_ * curve_.atForces.weight(i) * F.dot(node.tail(d));
+            const double t = start_ + curve_.atForces.place(i) * h_, weight = h_ * curve_.atForces.weight(i);
+            force.value(force.model.get(), t, node.data(), node.data() + d, F.data());
+            values[SaidOfForces::work] += weight * F.dot(node.tail(d));
+            values[SaidOfForces::expansion] += weight * mechanism.expansion(t, node.data(), node.data() + d);
+            F *= weight;
+            said_.addImpulse(t, node.data(), F.data(), values);
         }
-        return sum;
     }
     /// -sum_{j<m} Lambda_j . g_t - kappa . g_t at the end: what constraints that move with time do, and
     /// rolling conditions with a velocity of their own.
@@ -335,6 +384,8 @@ private:
     Vector velocity_, acceleration_, multipliers_, endVelocity_, kappa_, masses_, startMasses_;
     Vector forces_;
     mutable Vector node_, gradient_;  ///< of dense output
+    SaidOfForces said_;
+    std::optional<StepVariation> variation_;
     double start_ = 0, nearness_ = 0;
     StepReport report_;
 };

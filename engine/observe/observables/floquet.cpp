@@ -2,6 +2,7 @@
 /// The trace of the product of all tangent maps since the start: of a motion that is back at its start after
 /// whole steps, the sum of its Floquet multipliers. A coordinate in which the motion does not move has a pair
 /// of its own, with a trace of its own.
+#include "engine/model/mechanisms.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/observe/quantity_observable.hpp"
 
@@ -19,7 +20,7 @@ ObservableEntry floquet() {
          {},
          "a scheme with a tangent map"},
         {}, {.map = true}, false);
-    e.takes = flowProblems();
+    e.takes = flowProblems().with<Force, Wall>();
     e.bind = [](const ObserveContext& context) {
         std::vector<Column> columns{{"floquet_trace", "tr P", "", {}, {}}};
         for (const Coordinate& c : context.system.coordinates)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The largest Lyapunov exponent of the discrete motion so far, and MEGNO, which tells regular from chaotic
 /// motions long before: a variation of the state is carried along by the tangent maps of the steps.
+#include "engine/model/mechanisms.hpp"
 #include "engine/observe/quantity_observable.hpp"
 
 namespace extremal::observables {
 
 ObservableEntry lyapunov() {
-    return variationObservable(
+    ObservableEntry e = variationObservable(
         {"lyapunov",
          "Lyapunov exponent",
          "Largest Lyapunov exponent up to each row, by a variation that the tangent maps of the steps carry "
@@ -16,6 +17,8 @@ ObservableEntry lyapunov() {
          {},
          "a scheme with a tangent map"},
         {{"lyapunov", "λ", "", {}, {}}, {"megno", "Ȳ", "", {}, {}}}, {.vector = true}, false);
+    e.takes = mechanisms().with<Body>();
+    return e;
 }
 
 }  // namespace extremal::observables

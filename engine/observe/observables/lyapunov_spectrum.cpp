@@ -3,6 +3,8 @@
 #include <string>
 
 #include "engine/integrator/with_exponents.hpp"
+#include "engine/mechanism/tangent_space.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/observe/quantity_observable.hpp"
 
@@ -14,16 +16,16 @@ ObservableEntry lyapunov_spectrum() {
         "lyapunov-spectrum",
         "Lyapunov exponents",
         "All Lyapunov exponents up to each row, by an orthonormal frame that the tangent maps of the steps "
-        "carry along, and their sum, which is 0 where volume is kept.",
+        "carry along, and their sum, which is 0 where volume is kept and negative where forces damp.",
         {},
         {},
         "at most 32 coordinates"};
     e.variations = {.frame = true};
-    e.takes = flowProblems();
+    e.takes = mechanisms().with<PhaseMechanics>();
     e.suits = [](const System& system) { return 2 * system.coordinates.size() <= mostExponents; };
     e.bind = [](const ObserveContext& context) {
         std::vector<Column> columns;
-        for (std::size_t i = 1; i <= 2 * context.system.coordinates.size(); ++i)
+        for (int i = 1; i <= freeVariations(context.system); ++i)
             columns.push_back({"lyapunov." + std::to_string(i), "λ_" + std::to_string(i), "", {}, {}});
         columns.push_back({"lyapunov_sum", "Σλ", "", {}, {}});
         return observeQuantities(context, columns);

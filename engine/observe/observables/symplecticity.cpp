@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// How far each step is from keeping the symplectic form, max |M^T J M - J| with its tangent map M, and how
-/// far all steps together are, relative to the square of their tangent map.
-#include "engine/model/phase_mechanics.hpp"
+/// far all steps together are, relative to the square of their tangent map. With constraints both are
+/// compared along their manifold. Forces do not keep the form: contraction says what they do.
+#include "engine/model/mechanisms.hpp"
 #include "engine/observe/quantity_observable.hpp"
 
 namespace extremal::observables {
@@ -18,7 +19,7 @@ ObservableEntry symplecticity() {
         {{"symplecticity", "max |MᵀJM − J|", "", {}, {}},
          {"symplecticity_accumulated", "max |PᵀJP − J| / max |P|²", "", {}, {}}},
         {.map = true}, true);
-    e.takes = Takes::only<Mechanical, Body, Wave, ScalarField, PhaseMechanics>();
+    e.takes = Takes::only<Mechanical, Body, Wave, ScalarField, Constraint, Wall, PhaseMechanics>();
     return e;
 }
 

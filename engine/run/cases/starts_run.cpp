@@ -9,6 +9,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/integrator/crossing.hpp"
 #include "engine/integrator/with_variations.hpp"
+#include "engine/mechanism/tangent_space.hpp"
 #include "engine/run/march/inside_step.hpp"
 #include "engine/run/march/march_grid.hpp"
 #include "engine/run/march/motion_check.hpp"
@@ -84,7 +85,8 @@ public:
         const double step = signedStep(scene, scheme_.spec.step.value);
         State state{scene.start.value, 0, orbit_.start, {}};
         const auto integrator =
-            withVariations(scheme_.make(system_, step, state), system_, VariationPlan{.vector = true});
+            withVariations(scheme_.make(system_, step, state), system_, VariationPlan{.vector = true},
+                           tangentBasis(system_), freeVariations(system_));
         const MarchGrid grid = marchGrid(scene, scheme_, step);
         inside_ = state;
         keep(state.t, state.x);

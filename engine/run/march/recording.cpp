@@ -7,6 +7,7 @@
 
 #include "engine/core/text/text.hpp"
 #include "engine/integrator/with_exponents.hpp"
+#include "engine/mechanism/tangent_space.hpp"
 #include "engine/model/conservative.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/march/march_grid.hpp"
@@ -43,8 +44,10 @@ Recording::Recording(const ResolvedScene& resolved, const ResolvedScheme& scheme
     const VariationPlan variations = variationsFor(observe);
     integrator = scheme.make(system, step, initial);
     const bool hasLocalErrors = variations.errors && localErrorProblem(scheme, system, *integrator).empty();
-    integrator = withVariations(std::move(integrator), system, variations);
-    if (variations.frame && integrator->tangentSize() > 0) integrator = withExponents(std::move(integrator));
+    const TangentBasis basis = variations.isEmpty() ? TangentBasis() : tangentBasis(system);
+    integrator = withVariations(std::move(integrator), system, variations, basis, freeVariations(system));
+    if (variations.frame && integrator->tangentSize() > 0)
+        integrator = withExponents(std::move(integrator), basis, freeVariations(system));
     if (hasLocalErrors)
         integrator = measuringLocalErrors(std::move(integrator), scheme, system, step, initial);
     integrator->setStop(stop);
