@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/model/mechanisms.hpp"
 #include "engine/model/parts/written_form.hpp"
 #include "engine/symmetry/candidates.hpp"
 #include "engine/symmetry/symmetry.hpp"
@@ -12,8 +13,11 @@ namespace {
 
 /// Built-in systems say what they conserve; the columns of their files do not change by what a search finds.
 bool isSearched(const System& system) {
-    return system.isMovedOnlyBy<Mechanical>() &&
+    return isTaken(Takes::only<Mechanical, Constraint, Wall>(), system.parts) &&
            (system.momenta.empty() || system.id == "lagrangian" || system.parts.find<WrittenForm>());
+}
+std::shared_ptr<const std::vector<Symmetry>> searched(const System& system) {
+    return system.isMovedOnlyBy<Mechanical>() ? symmetriesOf(system) : symmetriesBesideForces(system, true);
 }
 
 bool isKnown(const System& system, const std::string& name) {
@@ -53,12 +57,21 @@ std::string unitOf(const System& system, const Symmetry& s) {
     return system.coordinates[static_cast<std::size_t>(at)].momentumUnit;
 }
 
+ConservedMomentum momentumOf(const System& system, const Symmetry& s) {
+    const auto d = static_cast<std::size_t>(system.dimension());
+    return {s.name, symbolOf(s), unitOf(system, s),
+            [s, mechanics = system.mechanics(), d](double t, const double* x) {
+                return s.momentum(mechanics, t, x, x + d);
+            },
+            s.movesTime()};
+}
+
 }  // namespace
 
 bool hasMomenta(const System& system) {
     if (!system.momenta.empty()) return true;
     if (!isSearched(system)) return false;
-    const auto found = symmetriesOf(system);
+    const auto found = searched(system);
     return std::any_of(found->begin(), found->end(), isMomentum);
 }
 
@@ -69,15 +82,22 @@ std::vector<ConservedMomentum> momentaOf(const System& system) {
         all.push_back({map.name, map.symbol, map.unit,
                        [value = map.value, d](double, const double* x) { return value(x, x + d); }});
     if (!isSearched(system)) return all;
-    for (const Symmetry& s : *symmetriesOf(system)) {
+    for (const Symmetry& s : *searched(system)) {
         if (!isMomentum(s)) continue;
         if (const std::string cyclic = cyclicName(system, s); !cyclic.empty() && isKnown(system, cyclic))
             continue;
-        all.push_back({s.name, symbolOf(s), unitOf(system, s),
-                       [s, mechanics = system.mechanics(), d](double t, const double* x) {
-                           return s.momentum(mechanics, t, x, x + d);
-                       },
-                       s.movesTime()});
+        all.push_back(momentumOf(system, s));
+    }
+    return all;
+}
+
+std::vector<BalancedMomentum> momentaBesideForces(const System& system) {
+    std::vector<BalancedMomentum> all;
+    for (const Symmetry& s : *symmetriesBesideForces(system, false)) {
+        if (!isMomentum(s) || s.movesTime()) continue;
+        BalancedMomentum each{momentumOf(system, s), s};
+        if (const std::string cyclic = cyclicName(system, s); !cyclic.empty()) each.momentum.name = cyclic;
+        all.push_back(std::move(each));
     }
     return all;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/model/system.hpp"
+#include "engine/symmetry/symmetry.hpp"
 
 namespace extremal {
 
@@ -27,6 +28,14 @@ struct ConservedMomentum {
 };
 
 std::vector<ConservedMomentum> momentaOf(const System& system);
+
+/// A momentum of a symmetry that forces or walls may break: it changes by sum J . xi.
+struct BalancedMomentum {
+    ConservedMomentum momentum;
+    Symmetry symmetry;
+};
+/// Of symmetries that do not move time.
+std::vector<BalancedMomentum> momentaBesideForces(const System& system);
 
 /// The same question without a search for systems that have some of their own.
 bool hasMomenta(const System& system);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/model/mechanisms.hpp"
 #include "engine/model/typed/branches.hpp"
 #include "engine/symmetry/sample.hpp"
 
@@ -137,6 +138,40 @@ std::vector<Jump> jumpsOf(const Mechanical& mechanics) {
         }
     }
     return found;
+}
+
+namespace {
+
+template <class Relations>
+void addRelations(const Relations& part, const Mechanical& mechanics, std::vector<Jump>& to) {
+    const auto n = static_cast<std::size_t>(part.count()), d = static_cast<std::size_t>(mechanics.dimension);
+    // More than there are displacements A q + b + c t, as any combination that a few of them keep would do.
+    constexpr std::size_t most = 400;
+    const std::size_t samples = std::min(most, 2 * (d * d + 2 * d + 4));
+    std::vector<double> value(n), byPlace(n * d), byTime(n);
+    StateSampler sampler(mechanics, 1736);
+    SampledState state;
+    for (std::size_t sample = 0; sample < samples && sampler.next(state); ++sample) {
+        part.first(part.model.get(), state.t, state.q.data(), value.data(), byPlace.data(), byTime.data());
+        for (std::size_t k = 0; k < n; ++k) {
+            Jump relation{state.t, state.q, state.v, std::vector<double>(2 * d), byTime[k]};
+            std::copy_n(byPlace.data() + k * d, d, relation.gradient.data());
+            const auto isFinite = [](double x) { return std::isfinite(x); };
+            if (std::all_of(relation.gradient.begin(), relation.gradient.end(), isFinite))
+                to.push_back(std::move(relation));
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Jump> relationsOf(const System& system, bool areWallsKept) {
+    std::vector<Jump> all;
+    if (const Constraint* const part = system.parts.find<Constraint>())
+        addRelations(*part, system.mechanics(), all);
+    if (const Wall* const part = system.parts.find<Wall>(); part && areWallsKept)
+        addRelations(*part, system.mechanics(), all);
+    return all;
 }
 
 }  // namespace extremal

@@ -26,4 +26,8 @@ struct Jump {
 /// Some places on every jump that random states lead to.
 std::vector<Jump> jumpsOf(const Mechanical& mechanics);
 
+/// The same of relations s(t, q) of places (constraints; gaps of walls) that a symmetry must not change, at
+/// random states: there the symmetry leaves not only s = 0 but every value of s.
+std::vector<Jump> relationsOf(const System& system, bool areWallsKept);
+
 }  // namespace extremal

@@ -123,12 +123,12 @@ std::vector<Index> echelon(MatrixXd& N, double small) {
 
 }  // namespace
 
-std::vector<Symmetry> symmetriesOnSamples(const System& system, const StateSampler& from) {
+std::vector<Symmetry> symmetriesOnSamples(const System& system, const StateSampler& from,
+                                          const std::vector<Jump>& jumps) {
     constexpr double exact = 1e-12, almost = 1e-6;
     const int d = system.dimension();
     const Unknowns unknowns(d);
     StateSampler sampler = from;
-    const std::vector<Jump> jumps = jumpsOf(system.mechanics());
     const Index m = unknowns.size(), random = 3 * m + 20, rows = random + sampler.statesAtLandmarks() / 2,
                 all = rows + static_cast<Index>(jumps.size());
     MatrixXd M(all, m);

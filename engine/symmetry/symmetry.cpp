@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/mechanisms.hpp"
 #include "engine/symmetry/candidates.hpp"
 #include "engine/symmetry/jumps.hpp"
 #include "engine/symmetry/null_space.hpp"
@@ -172,14 +174,16 @@ bool movesAlike(const Symmetry& a, const Symmetry& b) {
            isNear(a.tau1, b.tau1);
 }
 
-std::vector<Symmetry> search(const System& system) {
+std::vector<Symmetry> search(const System& system, const std::vector<Jump>& relations) {
     constexpr double exact = 1e-10, almost = 1e-4;
     const Mechanical& mechanics = system.mechanics();
     const bool isSmall = system.dimension() <= mostCoordinates;
     const std::vector<SampledState> states = freshStates(mechanics);
-    const std::vector<Jump> jumps = jumpsOf(mechanics);
+    std::vector<Jump> jumps = jumpsOf(mechanics);
+    jumps.insert(jumps.end(), relations.begin(), relations.end());
     std::vector<Symmetry> found;
-    for (Symmetry& s : isSmall ? symmetriesOnSamples(system, StateSampler(mechanics)) : candidates(system)) {
+    for (Symmetry& s :
+         isSmall ? symmetriesOnSamples(system, StateSampler(mechanics), jumps) : candidates(system)) {
         normalise(s);
         if (!movesSomething(s) || (isPureTime(s) && mechanics.isTimeDependent)) continue;
         const auto isMoved = [&s](const Jump& jump) { return jump.isMovedBy(s); };
@@ -284,11 +288,32 @@ double Symmetry::momentum(const Mechanical& mechanics, double t, const double* q
 std::shared_ptr<const std::vector<Symmetry>> symmetriesOf(const System& system) {
     using All = std::shared_ptr<const std::vector<Symmetry>>;
     if (!system.isMovedOnlyBy<Mechanical>()) return std::make_shared<const std::vector<Symmetry>>();
-    const auto make = [&]() -> All { return std::make_shared<const std::vector<Symmetry>>(search(system)); };
+    const auto make = [&]() -> All {
+        return std::make_shared<const std::vector<Symmetry>>(search(system, {}));
+    };
     const std::shared_ptr<const void>& model = system.mechanics().model;
     if (!model) return make();
     static MemoCache<std::shared_ptr<const void>, All> known(16);
     return known.get(model, make);
+}
+
+std::shared_ptr<const std::vector<Symmetry>> symmetriesBesideForces(const System& system, bool areWallsKept) {
+    using All = std::shared_ptr<const std::vector<Symmetry>>;
+    using Key =
+        std::tuple<std::shared_ptr<const void>, std::shared_ptr<const void>, std::shared_ptr<const void>>;
+    const auto* const mechanical = system.parts.find<Mechanical>();
+    if (!mechanical || system.parts.find<Rolling>()) return std::make_shared<const std::vector<Symmetry>>();
+    const auto make = [&]() -> All {
+        return std::make_shared<const std::vector<Symmetry>>(
+            search(system, relationsOf(system, areWallsKept)));
+    };
+    Key key{mechanical->model, nullptr, nullptr};
+    if (const auto* const part = system.parts.find<Constraint>()) std::get<1>(key) = part->model;
+    if (const auto* const part = system.parts.find<Wall>(); part && areWallsKept)
+        std::get<2>(key) = part->model;
+    if (!std::get<0>(key)) return make();
+    static MemoCache<Key, All> known(16);
+    return known.get(key, make);
 }
 
 std::string symmetryText(const System& system) {

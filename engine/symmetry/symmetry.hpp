@@ -78,6 +78,11 @@ bool hasNonzero(const std::vector<double>& entries);
 /// All of them, exact ones first. Remembered for the last few systems.
 std::shared_ptr<const std::vector<Symmetry>> symmetriesOf(const System& system);
 
+/// Those of the Lagrangian that leave constraints as they are (and the gaps of walls, where these are kept),
+/// whatever forces there are: what changes their momenta is sum J . xi over the impulses J of forces and
+/// walls. Empty where there are rolling conditions, whose reactions change momenta as well.
+std::shared_ptr<const std::vector<Symmetry>> symmetriesBesideForces(const System& system, bool areWallsKept);
+
 /// "rotation in the plane x-y, energy", "none found".
 std::string symmetryText(const System& system);
 

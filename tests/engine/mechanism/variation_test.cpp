@@ -14,6 +14,7 @@
 #include "engine/mechanism/tangent_space.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/write/codec.hpp"
+#include "engine/symmetry/conserved.hpp"
 #include "tests/engine/mechanism/mechanisms.hpp"
 #include "tests/tools/test.hpp"
 
@@ -195,6 +196,50 @@ private slots:
         // Energies of H at the contact: not the form, to the order of the scheme.
         const double form = variationsOf(named("rim"), "galerkin-gauss-2", 0.1, 5).symplecticity;
         QVERIFY(form > 1e-9 && form < 1e-3);
+    }
+    /// Kepler with drag: L from 1.1 to about half, and its balance to round-off.
+    void momentaBalanceToRoundOff() {
+        const Comparison c =
+            runScene(R"json({"extremal":1,"model":{"type":"lagrangian","coordinates":["x","y"],
+            "parameters":{"c":0.02},"lagrangian":"(x_t^2+y_t^2)/2+1/sqrt(x^2+y^2)",
+            "forces":{
+    "x" : "-c*x_t", "y" : "-c*y_t"}},"initial":{"q":[1,0],"v":[0,1.1]},"time":{"end":40},
+            "schemes":[{"scheme":"galerkin-gauss-2","step":0.05},{"scheme":"galerkin-lobatto-3","step":0.05}],
+            "observe":["momentum-balance"]
+    })json");
+        QCOMPARE(c.schemes.size(), std::size_t(2));
+        for (const auto& result : c.schemes) {
+            const SchemeResult& scheme = *result;
+            double worst = 0;
+            for (const double value : scheme.trajectory["momentum_balance"]) worst = std::max(worst, value);
+            const auto q = [&](const char* name) { return scheme.trajectory[name].back(); };
+            const double L = q("q.x") * q("p.y") - q("q.y") * q("p.x");
+            qInfo("L %.4f, balance %.1e", L, worst);
+            QVERIFY(std::abs(L - 0.494) < 0.002);
+            QVERIFY(worst < 4e-15);
+        }
+    }
+    /// A symmetry of L that the constraint does not have is none of the mechanism; a wall gives momentum.
+    void onlySymmetriesOfConstraintsCount() {
+        const System sphere = mechanism_test::sphericalPendulum().system,
+                     ellipsoid =
+                         typed({"x", "y", "z"}, "(x_t^2+y_t^2+z_t^2)/2 - z", {{"g", "x^2+2*y^2+z^2-1"}}),
+                     aside = typed({"x", "y"}, "(x_t^2+y_t^2)/2", {{"g", "(x-1)^2+y^2-1"}});
+        QVERIFY(hasMomenta(sphere));
+        QCOMPARE(momentaOf(sphere).size(), std::size_t(1));
+        QVERIFY(!hasMomenta(ellipsoid));
+        QCOMPARE(momentaOf(aside).size(), std::size_t(1));
+        const Comparison c =
+            runScene(R"json({"extremal":1,"model":{"type":"lagrangian","coordinates":["x","y"],
+            "parameters":{},"lagrangian":"(x_t^2+y_t^2)/2 - y","walls":{"floor":{"gap":"y+x/4","restitution":0.9}}},
+            "initial":{"q":[0,1],"v":[0.3,0]},"time":{"end":4},
+            "schemes":[{"scheme":"galerkin-gauss-2","step":0.1}],"observe":["momentum-balance"]})json");
+        double worst = 0;
+        for (const double value : c.schemes.front()->trajectory["momentum_balance"])
+            worst = std::max(worst, value);
+        QVERIFY(c.schemes.front()->summary.impacts >= 2);
+        qInfo("balance %.1e", worst);
+        QVERIFY(worst < 2e-14);
     }
     /// A driven pendulum with damping c: the exponents have the sum -c.
     void exponentsOfADampedPendulumAddUpToItsDamping() {
