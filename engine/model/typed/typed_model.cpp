@@ -2,7 +2,9 @@
 #include "engine/model/typed/typed_model.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/invalid_text.hpp"
@@ -33,6 +35,30 @@ std::string termNameProblem(const std::string& name) {
                c == '-';
     });
     return isWord ? "" : "must be letters, digits, - and _";
+}
+
+/// Names of parts among each other, and with those that formulas have already.
+void checkPartNames(const Settings& settings, const Formula& formula) {
+    std::map<std::string, std::string> taken;
+    for (const std::string& name : formula.coordinates) taken[name] = "a coordinate";
+    for (const auto& [name, value] : formula.parameters) taken[name] = "a parameter";
+    for (const auto& [name, control] : formula.controls) taken[name] = "a control";
+    for (const auto& [name, text] : formula.terms) taken.try_emplace(name, "a term of the Lagrangian");
+    std::vector<Problem> problems;
+    for (const auto& [key, what] :
+         {std::pair("constraints", "a constraint"), std::pair("rolling", "a rolling condition"),
+          std::pair("walls", "a wall")}) {
+        const Value* const typed = settings.find(key);
+        if (!typed || !typed->isObject()) continue;
+        for (const auto& [name, text] : typed->asObject()) {
+            const auto [known, isNew] = taken.try_emplace(name, what);
+            if (!isNew)
+                problems.push_back({std::string("/") + key + "/" + name,
+                                    "the name \"" + name + "\" is that of " + known->second,
+                                    "every name has one meaning"});
+        }
+    }
+    if (!problems.empty()) throw InvalidScene(std::move(problems));
 }
 
 }  // namespace
@@ -78,6 +104,7 @@ Formula formulaOf(const Settings& given) {
     }
     if (!problems.empty()) throw InvalidScene(std::move(problems));
     formula.controls = controlsOf(settings, formula);
+    checkPartNames(settings, formula);
     return formula;
 }
 

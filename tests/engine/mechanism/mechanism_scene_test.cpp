@@ -89,6 +89,47 @@ private slots:
                              }),
                  said.c_str());
     }
+    /// Names of parts among each other, and with those of formulas.
+    void namesHaveOneMeaning_data() {
+        QTest::addColumn<QString>("key");
+        QTest::addColumn<QString>("name");
+        QTest::addColumn<QString>("words");
+        for (const char* key : {"constraints", "rolling", "walls"}) {
+            QTest::addRow("%s, coordinate", key) << key << "x"
+                                                 << "that of a coordinate";
+            QTest::addRow("%s, parameter", key) << key << "l"
+                                                << "that of a parameter";
+            QTest::addRow("%s, control", key) << key << "u"
+                                              << "that of a control";
+            QTest::addRow("%s, term", key) << key << "kinetic"
+                                           << "that of a term";
+        }
+        QTest::newRow("rolling, constraint") << "rolling"
+                                             << "rod"
+                                             << "that of a constraint";
+        QTest::newRow("walls, constraint") << "walls"
+                                           << "rod"
+                                           << "that of a constraint";
+    }
+    void namesHaveOneMeaning() {
+        QFETCH(QString, key);
+        QFETCH(QString, name);
+        QFETCH(QString, words);
+        const std::string formula = key == "rolling" ? "x_t + y_t" : key == "walls" ? "y + 2" : "x^2+y^2-1";
+        Value::Object model{
+            {"lagrangian", Value::Object{{"kinetic", "(x_t^2+y_t^2)/2"}, {"potential", "-y"}}},
+            {"controls", Value::Object{{"u", "sin(t)"}}},
+            {"constraints", Value::Object{{"rod", "x^2+y^2-l^2"}}}};
+        const Value own(Value::Object{{name.toStdString(), formula}});
+        if (key == "constraints")
+            model.back().second = own;
+        else
+            model.push_back({key.toStdString(), own});
+        const std::string said = textOf(read(model).errors),
+                          place = "/model/" + key.toStdString() + "/" + name.toStdString() + ": the name";
+        QVERIFY2(said.find(place) != std::string::npos && said.find(words.toStdString()) != std::string::npos,
+                 said.c_str());
+    }
     void aFormulaWithoutANameIsRefused() {
         const ReadScene scene = read({{"constraints", "x^2+y^2-1"}});
         QVERIFY2(textOf(scene.errors).find("needs a name") != std::string::npos,
