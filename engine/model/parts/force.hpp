@@ -19,6 +19,8 @@ struct Force {
 
     std::shared_ptr<const void> model;  ///< first argument of the calls
     bool isTimeDependent = false;
+    /// Times at which it bends, ascending: those of linear tables in it.
+    std::vector<double> kinks = {};
 
     /// F (d).
     void (*value)(const void*, double t, const double* q, const double* v, double* force) = nullptr;

@@ -10,6 +10,7 @@
 #include "engine/family/frequency.hpp"
 #include "engine/family/parts/steps.hpp"
 #include "engine/mechanism/mechanism_start.hpp"
+#include "engine/model/parts/force.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/outlook/companion.hpp"
@@ -160,6 +161,27 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
                        "a larger step, or an earlier end", {}, "duration");
 }
 
+/// Tables of forces that bend inside a step, where schemes lose their order.
+void checkKinks(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
+                const std::string& pointer) {
+    const Force* const force = systemOf(scene, scheme)->parts.find<Force>();
+    if (!force || force->kinks.empty() || scheme.isAdaptive() || !(scheme.spec.step.value > 0)) return;
+    constexpr double roundOff = 1e-9;  // of a step
+    const double h = scheme.spec.step.value, start = scene.scene.start.value;
+    const TimeSpan span = timeSpan(scene.scene);
+    const auto bends = [&](double t) {
+        const double steps = std::abs(t - start) / h;
+        return t > span.first && t < span.last &&
+               std::abs(steps - std::round(steps)) > roundOff * (1 + steps);
+    };
+    const auto found = std::find_if(force->kinks.begin(), force->kinks.end(), bends);
+    if (found == force->kinks.end()) return;
+    reader.warning(pointer + "/step",
+                   "a table of the forces bends at t = " + formatNumber(*found, 6) +
+                       ", inside a step: there the error is irregular, and no better with a higher degree",
+                   "steps that end at the times of the table", {}, "table-bends");
+}
+
 /// Of its family or its baseline, what stands against its step.
 void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
@@ -231,6 +253,7 @@ void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
             checkWayBack(reader, scene.scene, scheme, pointer);
             schemeStart(scene, scheme, step);
             checkStep(reader, scene, scheme, pointer);
+            checkKinks(reader, scene, scheme, pointer);
         });
     } catch (const InvalidScene& e) {
         return reader.add(pointer, {e.problems(), {}});

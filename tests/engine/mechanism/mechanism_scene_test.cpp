@@ -130,6 +130,23 @@ private slots:
         QVERIFY2(said.find(place) != std::string::npos && said.find(words.toStdString()) != std::string::npos,
                  said.c_str());
     }
+    /// A table that bends inside a step is warned of; one whose times are ends of steps is not.
+    void tablesBendBetweenSteps() {
+        const auto warnings = [](const Value::Array& rows, const char* interpolation, const char* scheme) {
+            return textOf(
+                read({{"forces", Value::Object{{"x", "u"}}},
+                      {"controls", Value::Object{{"u", Value::Object{{"table", rows},
+                                                                     {"interpolation", interpolation}}}}}},
+                     {}, scheme)
+                    .warnings);
+        };
+        const Value::Array inside{Value::Array{0, 1}, Value::Array{0.25, 2}, Value::Array{2, 0}},
+            atEnds{Value::Array{-0.05, 1}, Value::Array{0.3, 2}, Value::Array{1.05, 0}};
+        const std::string said = warnings(inside, "linear", "galerkin-gauss-2");
+        QVERIFY2(said.find("bends at t = 0.25, inside a step") != std::string::npos, said.c_str());
+        QCOMPARE(warnings(atEnds, "linear", "galerkin-gauss-2"), std::string());
+        QCOMPARE(warnings(inside, "cubic", "galerkin-gauss-2"), std::string());
+    }
     void aFormulaWithoutANameIsRefused() {
         const ReadScene scene = read({{"constraints", "x^2+y^2-1"}});
         QVERIFY2(textOf(scene.errors).find("needs a name") != std::string::npos,

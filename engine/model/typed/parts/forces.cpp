@@ -111,6 +111,23 @@ bool hasForces(const Settings& settings) {
            (dissipation && dissipation->isString() && !dissipation->asString().empty());
 }
 
+/// Times of the tables with straight lines among the controls that a force uses.
+std::vector<double> kinksOf(const Settings& settings, const Formula& formula) {
+    std::string texts;
+    for (const auto& [name, text] : formulasUnder(settings, "forces")) texts += text.asString() + " ";
+    if (const Value* const D = settings.find("dissipation"); D && D->isString()) texts += D->asString();
+    std::vector<double> kinks;
+    for (const auto& [name, control] : formula.controls) {
+        if (!occurs(name, texts)) continue;
+        for (const Expression::Node& node : control.nodes)
+            if (node.table && node.table->kind() == Interpolant::Kind::linear)
+                kinks.insert(kinks.end(), node.table->abscissae().begin(), node.table->abscissae().end());
+    }
+    std::sort(kinks.begin(), kinks.end());
+    kinks.erase(std::unique(kinks.begin(), kinks.end()), kinks.end());
+    return kinks;
+}
+
 }  // namespace
 
 std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
@@ -136,6 +153,7 @@ std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
     model->first = roots.tape(all);
     Force made;
     made.isTimeDependent = roots.graph().dependsOn(nodes.value, [d](int symbol) { return symbol == d; });
+    made.kinks = kinksOf(settings, formula);
     auto entries = std::make_shared<Force::Entries>();
     for (const ForceModel::Entry& e : model->entries) entries->first.push_back({e.i, e.j});
     entries->values = entriesOfForce;
