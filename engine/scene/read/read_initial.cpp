@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "engine/core/text/indexed.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/parts/written_form.hpp"
 #include "engine/scene/outlook/two_positions.hpp"
@@ -12,6 +13,8 @@
 namespace extremal {
 namespace {
 
+constexpr std::size_t maxTwice = 2000;  ///< names that are looked at for two values of one
+
 std::vector<std::string> coordinateNames(const System& system) {
     std::vector<std::string> names;
     for (const Coordinate& c : system.coordinates) names.push_back(c.name);
@@ -22,9 +25,38 @@ std::string countOf(std::size_t n, const std::vector<std::string>& names) {
     return std::to_string(n) + (n == 1 ? " number (" : " numbers (") + joinNames(names) + ")";
 }
 
+/// An object by name with what is typed by index written out: {"x[1..n]": 0, "y[i = 1..n]": "-i*l"}. Others
+/// are left as they are.
+Value byNames(Reader& reader, const Value& value, const std::string& pointer) {
+    const auto isByIndex = [](const Value::Member& m) { return hasIndices(m.first); };
+    if (!value.isObject() || std::none_of(value.asObject().begin(), value.asObject().end(), isByIndex))
+        return value;
+    NamedNumbers parameters;
+    for (const auto& [name, number] : reader.parameters)
+        if (number) parameters.emplace_back(name, *number);
+    Value::Object all;
+    for (const auto& [key, given] : value.asObject()) {
+        try {
+            for (const IndexedName& n : namesOf(key, parameters)) {
+                const bool isText = given.isString() && !n.index.empty();
+                all.emplace_back(n.name, isText ? Value(writtenOut(given.asString(), parameters, n)) : given);
+            }
+        } catch (const ExpressionError& e) {
+            reader.error(childPointer(pointer, key), std::string(e.what()), e.hint);
+        }
+    }
+    for (std::size_t i = 1; i < all.size(); ++i)
+        for (std::size_t j = 0; j < i && all.size() <= maxTwice; ++j)
+            if (all[i].first == all[j].first)
+                reader.error(childPointer(pointer, all[i].first), "has two values",
+                             "one for each coordinate");
+    return Value(std::move(all));
+}
+
 /// One number per coordinate: an array in their order, or an object by name.
-std::vector<Number> readVector(Reader& reader, const Value& value, const std::string& pointer,
+std::vector<Number> readVector(Reader& reader, const Value& given, const std::string& pointer,
                                const System& system) {
+    const Value value = byNames(reader, given, pointer);
     const auto names = coordinateNames(system);
     std::vector<Number> numbers(names.size());
     if (value.isArray()) {

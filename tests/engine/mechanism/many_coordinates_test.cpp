@@ -8,6 +8,8 @@
 
 #include "engine/model/typed/typed_mechanics.hpp"
 #include "engine/model/typed/typed_model.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/engine/mechanism/mechanisms.hpp"
 #include "tests/tools/test.hpp"
 
@@ -120,6 +122,38 @@ private slots:
         QVERIFY(std::abs(f[40] + 0.1) < 1e-15 && std::abs(f[79] + 0.1) < 1e-15);
         QCOMPARE(force.entries->first.size(), std::size_t{80});
         QVERIFY(LinkedParts::of(s.parts));
+    }
+
+    /// Initial data by index are those by number.
+    void initialDataByIndex() {
+        const auto read = [](const Value& q) {
+            return readScene(Value(Value::Object{
+                {"extremal", 1},
+                {"model", Value(Value::Object{{"type", "lagrangian"},
+                                              {"coordinates", Value::Array{"x[1..n]", "y[1..n]"}},
+                                              {"parameters", Value::Object{{"n", 5}, {"l", 0.5}}},
+                                              {"lagrangian", "sum(i, 1..n, (x[i]_t^2+y[i]_t^2)/2)"}})},
+                {"initial", Value(Value::Object{{"q", q}})},
+                {"time", Value::Object{{"end", 1}}},
+                {"schemes", Value::Array{Value(Value::Object{{"scheme", "midpoint"}, {"step", 0.1}})}}}));
+        };
+        const ReadScene scene = read(
+            Value(Value::Object{{"x[i = 1..n]", "i*l"}, {"y[1..3]", 2}, {"y4", 7}, {"y[j=5..5]", "j^2"}}));
+        QVERIFY2(scene.errors.empty(), scene.errors.empty() ? "" : scene.errors.front().message.c_str());
+        const std::vector<double> q(scene.resolved->initial.x.begin(),
+                                    scene.resolved->initial.x.begin() + 10);
+        QCOMPARE(q, (std::vector<double>{0.5, 1, 1.5, 2, 2.5, 2, 2, 2, 7, 25}));
+        const auto errors = [&](const Value& given) {
+            std::string all;
+            for (const Problem& p : read(given).errors) all += p.pointer + ": " + p.message + "\n";
+            return all;
+        };
+        const std::string twice = errors(Value(Value::Object{{"x[1..n]", 1}, {"y[1..n]", 1}, {"x2", 3}})),
+                          far = errors(Value(Value::Object{{"x[1..n+1]", 1}, {"y[1..n]", 1}})),
+                          open = errors(Value(Value::Object{{"x[1..m]", 1}, {"y[1..n]", 1}}));
+        QVERIFY2(twice.find("x2: has two values") != std::string::npos, twice.c_str());
+        QVERIFY2(far.find("x6") != std::string::npos, far.c_str());
+        QVERIFY2(open.find("/initial/q/x[1..m]") != std::string::npos, open.c_str());
     }
 
     void whatIsWrongIsRefused() {
