@@ -10,13 +10,16 @@
 #include "engine/mechanism/mechanism_start.hpp"
 #include "engine/model/parts/written_form.hpp"
 #include "engine/scene/outlook/two_positions.hpp"
+#include "engine/scene/reflections.hpp"
 
 namespace extremal {
 
 System makeSystem(const Scene& scene) {
     const ModelEntry* entry = findModel(scene.model.type);
     if (!entry) throw InvalidScene("/model/type", "unknown model \"" + scene.model.type + "\"");
-    return entry->make(scene.model);
+    System system = entry->make(scene.model);
+    addReflections(system, scene.events);
+    return system;
 }
 
 State givenState(const Scene& scene, const System& system) {

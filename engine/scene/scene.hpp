@@ -60,15 +60,17 @@ struct ReferenceSpec {
     bool operator==(const ReferenceSpec&) const = default;
 };
 
-/// Something to look for along every motion: where an expression in the state passes zero.
+/// Something to look for along every motion: where an expression in the state passes zero. reflect: the
+/// motion does not pass it, and bounces with the restitution (scene/reflections.hpp).
 struct EventSpec {
     enum class Direction { both, up, down };
-    enum class Action { write, count, stop };
+    enum class Action { write, count, stop, reflect };
     std::string expression;
     std::string label;  ///< empty: the expression
     Direction direction = Direction::both;
     Action action = Action::write;
     std::vector<std::pair<std::string, double>> values = {};  ///< of the model's parameters in it
+    double restitution = 1;                                   ///< of reflect
     const std::string& title() const { return label.empty() ? expression : label; }
     bool operator==(const EventSpec&) const = default;
 };

@@ -167,16 +167,18 @@ FormField referenceField(const Workspace& workspace, const std::string& now) {
             "/reference"};
 }
 
-/// Expression, direction and action of each event.
+/// Expression, direction and action of each event, and the restitution of one that reflects.
 std::vector<FormField> eventFields(const Scene& scene) {
     std::vector<FormField> fields;
     for (std::size_t i = 0; i < scene.events.size(); ++i) {
         const std::string place = "/events/" + std::to_string(i);
         const QString number = QString::number(i + 1);
         fields.push_back(
-            {textField("expression", "event", nullptr,
-                       "Where this passes zero: coordinates by their names, momenta as p_<name>, t "
-                       "and the parameters of the model."),
+            {textField(
+                 "expression", "event", nullptr,
+                 "Where this passes zero: coordinates by their names, velocities as <name>_t, momenta as "
+                 "p_<name>, energy, reaction_<constraint>, integral(..) over time, t and the "
+                 "parameters of the model."),
              place + "/expression",
              QObject::tr("event %1").arg(number),
              {}});
@@ -188,10 +190,17 @@ std::vector<FormField> eventFields(const Scene& scene) {
         fields.push_back(
             {choiceField("action", "action", format::actions,
                          "write: with time and state into a file, and as marks; count: how often; stop: "
-                         "the run ends there."),
+                         "the run ends there; reflect: the motion bounces off it, from the side that the "
+                         "direction says."),
              place + "/action",
              QObject::tr("action %1").arg(number),
              {}});
+        if (scene.events[i].action != EventSpec::Action::reflect) continue;
+        fields.push_back({numberField("restitution", "restitution", "", 1,
+                                      "The part of the speed that is left after the impact, 0 to 1."),
+                          place + "/restitution",
+                          QObject::tr("restitution %1").arg(number),
+                          {}});
     }
     return fields;
 }
@@ -350,7 +359,8 @@ void ScenePanel::addEvent() {
     const auto names = stateNames(*workspace_.resolved()->system, parameters);
     std::string first = names.size() > 1 ? names[1].name : names.front().name;
     for (const StateName& name : names)
-        if (name.column == 0) first = name.name;  // the shortest name comes last
+        if (name.kind == StateName::Kind::column && name.index == 0)
+            first = name.name;  // the shortest name comes last
     workspace_.edit({{"/events/-", Value(Value::Object{{"expression", first}})}}, tr("Watch for an event"));
 }
 

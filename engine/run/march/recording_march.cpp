@@ -21,12 +21,11 @@ bool Recording::seeEvents(EventWatch& watch, const Stretch& stretch) {
         watch.start(stretch.state);
         return true;
     }
-    const auto tau = watch.look(stretch.integrator, stretch.before, stretch.state);
-    if (!tau) return true;
-    stopped = stretch.state;
-    stoppedAt = *tau;
-    stopped->t = stretch.before.t + *tau * (stretch.state.t - stretch.before.t);
-    if (*tau < 1) stretch.integrator.denseOutput(*tau, stopped->x);
+    auto end = watch.look(stretch.integrator, stretch.before, stretch.state);
+    if (!end) return true;
+    stopped = std::move(end->state);
+    stopped->node = stretch.state.node;
+    stoppedAt = end->tau;
     return false;
 }
 
@@ -160,7 +159,10 @@ std::vector<MarchSink> Recording::sinksFor(std::optional<EventWatch>& watch,
 void Recording::run(const std::function<void()>& publish, SchemeCheckpoint* file, const std::string& stage) {
     const bool isDense = scene.isDense && scene.every;
     std::optional<EventWatch> watch;
-    if (!scene.events.empty() && stateWidth > 0) watch.emplace(result, scene, system);
+    if (!scene.events.empty() && stateWidth > 0) {
+        const auto make = [this](const State& start) { return scheme.make(system, step, start); };
+        watch.emplace(result, scene, system, make);
+    }
     std::optional<InsideStep> inside;
     if (stateWidth > 0)  // else no row holds a state
         inside.emplace(result, scene, plan, system, !scheme.isFixed(), steps, std::move(denseError));

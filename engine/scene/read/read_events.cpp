@@ -6,6 +6,7 @@
 #include "engine/scene/event_names.hpp"
 #include "engine/scene/read/pointer.hpp"
 #include "engine/scene/read/read_parts.hpp"
+#include "engine/scene/reflections.hpp"
 #include "engine/scene/write/format.hpp"
 
 namespace extremal {
@@ -25,6 +26,40 @@ int wordOf(Reader& reader, const Value& object, const std::string& key, const st
     if (found != words.end()) return static_cast<int>(found - words.begin());
     reader.unknownName(at, key, *text, words);
     return 0;
+}
+
+/// The expression, and the values of the parameters in it and in its integrals.
+void readExpression(Reader& reader, const std::string& text, const std::string& at, const System& system,
+                    EventSpec& event) {
+    std::vector<std::string> parameters, names;
+    for (const auto& [name, number] : reader.parameters) parameters.push_back(name);
+    for (const StateName& each : stateNames(system, parameters)) names.push_back(each.name);
+    EventText parts;
+    try {
+        parts = EventText::of(text);
+    } catch (const ExpressionError& e) {
+        return reader.error(
+            at, "the expression " + std::string(e.what()) + "\n" + caretLines(text, e.position), e.hint);
+    }
+    std::vector<std::string> all = names;
+    for (const std::string& name : parts.integralNames()) all.push_back(name);
+    const auto add = [&](const std::string& part, const std::vector<std::string>& known) {
+        const auto values = reader.function(part, at, known);
+        if (!values) return false;
+        for (const auto& each : *values)
+            if (std::find(event.values.begin(), event.values.end(), each) == event.values.end())
+                event.values.push_back(each);
+        const auto used = parseExpression(part).names();
+        const bool isOfState = std::any_of(used.begin(), used.end(), [&](const std::string& name) {
+            return std::find(known.begin(), known.end(), name) != known.end();
+        });
+        if (!isOfState && &known == &all)
+            reader.error(at, "has nothing of the state in it", "names are " + joinNames(names));
+        return isOfState || &known != &all;
+    };
+    if (!add(parts.outer, all)) return;
+    for (const std::string& each : parts.integrands)
+        if (!add(each, names)) return;
 }
 
 }  // namespace
@@ -63,17 +98,18 @@ void readEvents(Reader& reader, const Value& document, const System* system, Sce
         const auto text = reader.text(*expression, at);
         if (!text || !system) continue;
         event.expression = *text;
-        std::vector<std::string> parameters, names;
-        for (const auto& [name, number] : reader.parameters) parameters.push_back(name);
-        for (const StateName& each : stateNames(*system, parameters)) names.push_back(each.name);
         const std::size_t errorsBefore = reader.errors.size();
-        if (const auto values = reader.function(*text, at, names)) {
-            event.values = *values;
-            const auto used = parseExpression(*text).names();
-            if (std::none_of(used.begin(), used.end(), [&](const std::string& name) {
-                    return std::find(names.begin(), names.end(), name) != names.end();
-                }))
-                reader.error(at, "has nothing of the state in it", "names are " + joinNames(names));
+        readExpression(reader, *text, at, *system, event);
+        if (event.action == EventSpec::Action::reflect) {
+            if (const Value* restitution = object.find("restitution"))
+                if (const auto number = reader.number(*restitution, pointer + "/restitution",
+                                                      {.min = 0, .max = 1, .hint = "1: elastic"}))
+                    event.restitution = number->value;
+            if (reader.errors.size() == errorsBefore)
+                for (const Problem& p : reflectionProblems(event, *system))
+                    reader.error(at, p.message, p.hint);
+        } else if (object.find("restitution")) {
+            reader.error(pointer + "/restitution", "is for events that reflect", R"("action": "reflect")");
         }
         if (reader.errors.size() == errorsBefore) scene.events.push_back(std::move(event));
     }

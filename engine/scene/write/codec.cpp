@@ -14,6 +14,7 @@
 #include "engine/scene/read/overrides.hpp"
 #include "engine/scene/read/pointer.hpp"
 #include "engine/scene/read/read_parts.hpp"
+#include "engine/scene/reflections.hpp"
 #include "engine/scene/write/format.hpp"
 
 namespace extremal {
@@ -57,11 +58,13 @@ void readParts(Reader& reader, const Value& document, const std::string& directo
         return reader.error("", "must be an object {...}, got " + describeValue(document), "a scene file");
     Scene& scene = result.scene;
     readHeader(reader, document, scene);
-    const auto system = [&] {
+    auto system = [&] {
         const work::Part part("/model");
         return readModel(reader, document, scene);
     }();
     const System* model = system ? &*system : nullptr;
+    readEvents(reader, document, model, scene);
+    if (system) addReflections(*system, scene.events);
     if (model) readInitial(reader, document, *model, scene);
     readTime(reader, document, scene);
     const auto places = readSchemes(reader, document, scene);
@@ -69,7 +72,6 @@ void readParts(Reader& reader, const Value& document, const std::string& directo
     readReference(reader, document, directory, scene);
     readOutput(reader, document, scene);
     readObserve(reader, document, model, scene);
-    readEvents(reader, document, model, scene);
     readViews(reader, document, model, scene);
     readLessonSteps(reader, document, scene);
     ResolvedScene resolved = resolveParts(scene, model, places);

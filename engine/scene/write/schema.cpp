@@ -297,10 +297,14 @@ Value rootProperties() {
     p.set("reference", referenceChoice());
     p.set("observe", arrayOf(enumeration(idsOf(observableCatalog()))));
     Value event{Value::Object{}};
-    event.set("expression", typed("string", "An expression in the state: coordinates by name, p_<name>, t."));
+    event.set("expression",
+              typed("string",
+                    "An expression in the state: coordinates by name, p_<name>, velocities <name>_t, energy, "
+                    "reaction_<constraint>, integral(expression), t."));
     event.set("label", typed("string", "What it is called; by default the expression."));
     event.set("direction", enumeration(format::directions));
     event.set("action", enumeration(format::actions));
+    event.set("restitution", typed("number", "Of reflect: the part of the speed that is left, 0 to 1."));
     p.set("events", arrayOf(anyOf({typed("string"), object(event, {"expression"})})));
     p.set("output", object(output, {}));
     p.set("views", arrayOf(viewChoice()));

@@ -68,6 +68,7 @@ Value eventValue(const EventSpec& event) {
     if (!event.label.empty()) value.set("label", event.label);
     value.set("direction", format::directions[static_cast<std::size_t>(event.direction)]);
     value.set("action", format::actions[static_cast<std::size_t>(event.action)]);
+    if (event.action == EventSpec::Action::reflect) value.set("restitution", event.restitution);
     return value;
 }
 

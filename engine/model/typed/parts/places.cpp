@@ -234,4 +234,18 @@ std::optional<Wall> wallOf(const Settings& settings, const Formula& formula) {
     return made;
 }
 
+Wall wallOf(const std::vector<GapText>& gaps, const Formula& formula) {
+    Relations relations(formula, "");
+    Wall made;
+    for (const GapText& each : gaps) {
+        relations.add("gap_" + std::to_string(made.names.size() + 1), each.text, "");
+        made.names.push_back(each.name);
+        made.restitution.push_back(each.restitution);
+    }
+    made.isTimeDependent = relations.isTimeDependent();
+    made.model = relations.model();
+    made.first = first;
+    return made;
+}
+
 }  // namespace extremal::typed

@@ -11,6 +11,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/core/settings.hpp"
 #include "engine/model/parts/constraint.hpp"
@@ -26,6 +28,13 @@ std::optional<Constraint> constraintOf(const Settings& settings, const Formula& 
 std::optional<Force> forceOf(const Settings& settings, const Formula& formula);
 std::optional<Rolling> rollingOf(const Settings& settings, const Formula& formula);
 std::optional<Wall> wallOf(const Settings& settings, const Formula& formula);
+
+/// Walls from gaps that are not keys of the model, such as events that reflect (scene/reflections.hpp).
+struct GapText {
+    std::string name, text;
+    double restitution = 1;
+};
+Wall wallOf(const std::vector<GapText>& gaps, const Formula& formula);
 
 /// Coordinates that no constraint, force or wall acts on: whether the momentum of a cyclic one is still kept.
 bool isUntouched(const Settings& settings, const Formula& formula, int coordinate);
