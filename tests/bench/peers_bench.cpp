@@ -8,6 +8,7 @@
 /// P3  Kepler, e = 0.6, position after 100 periods
 /// P5  wave function in a cosine well, N = 256 and 512, at t = 1
 /// P6  sine-Gordon breather, w = 0.9, to t = 100
+/// P7  chain of 100 balls on rods, the place of the last at t = 5, against RATTLE and IDA (chain_peers.hpp)
 ///
 /// Peers are loops by hand around Boost.odeint and splittings, and the methods in common use that the program
 /// offers beside its own (GSL, SUNDIALS, SRKN, impulse, Gauss collocation with its nodes in vector registers,
@@ -27,6 +28,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/sweep.hpp"
+#include "tests/bench/chain_peers.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/scheme_makers.hpp"
 #include "tests/bench/spring_peers.hpp"
@@ -309,8 +311,12 @@ int main(int argc, char** argv) {
         const char* id;
         void (*run)(PeerTable&);
     };
-    for (const auto& [problem, run] :
-         {Problem{"P1", springs}, {"P2", body}, {"P3", kepler}, {"P5", waves}, {"P6", breather}})
+    for (const auto& [problem, run] : {Problem{"P1", springs},
+                                       {"P2", body},
+                                       {"P3", kepler},
+                                       {"P5", waves},
+                                       {"P6", breather},
+                                       {"P7", chains}})
         if (wanted.empty() || wanted.contains(problem)) run(table);
     if (csv && !table.writeCsv(csv)) {
         std::fprintf(stderr, "%s cannot be written\n", csv);
