@@ -71,6 +71,8 @@ void printMissing(const Comparison& comparison) {
 void printFailures(const Comparison& comparison, const std::string& scene) {
     printProblems(scene, comparison.reference.problems,
                   "warning: there is no reference, so errors are unknown: ");
+    if (!comparison.reference.caution.empty())
+        printProblem("/reference", "warning: " + comparison.reference.caution);
     for (const auto& scheme : comparison.schemes) {
         const Summary& s = scheme->summary;
         if (s.status == RunStatus::failed)

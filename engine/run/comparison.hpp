@@ -66,6 +66,8 @@ struct Summary {
     int orderClaimed = 0;  ///< 0: no claim
     double orderMeasured = unknown;
     double maxConstraint = unknown;
+    double floor = unknown;    ///< errors below it say nothing of the scheme
+    std::string floorOf;       ///< "reference" or "round-off"; empty: unknown
     double impacts = unknown;  ///< on walls; of systems without walls not asked for
     double opensAt = unknown;  ///< t from which the error by a companion is too large to be true
     std::string advice;        ///< after a failure: what to try; for the window, not exported
@@ -96,6 +98,17 @@ struct ReferenceInfo {
     double estimatedError = Summary::unknown;
     std::string description;             ///< "Gauss(12), h = 0.01": for the window
     std::vector<Problem> problems = {};  ///< why there is none although the scene asks for one
+    // Of a computed one, what a method of another kind says (run/reference/members.hpp).
+    std::string chosen = {}, confirmedBy = {};  ///< the two methods; empty: no method of another kind
+    double agreed = Summary::unknown;           ///< the largest distance of the two over the run
+    double bound = Summary::unknown;            ///< of its error over the run
+    double horizon = Summary::unknown;  ///< t up to which errors can be judged; unknown: all of the run
+    struct At {
+        double t = 0, value = 0;
+    };
+    std::vector<At> boundAlong = {};  ///< the bound up to t, where errors cannot be judged all along
+    std::vector<At> pulses = {};      ///< of the force: when, and how wide
+    std::string caution = {};         ///< what cannot be judged, in words
 };
 
 inline ReferenceInfo companionInfo() {

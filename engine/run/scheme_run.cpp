@@ -175,6 +175,7 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
     if (wantsOrder && !hasCompanion && result.summary.status == RunStatus::done && !scheme_.isAdaptive() &&
         reference.make)
         measureOrder(result, reference, ofScene, stop);
+    if (!hasCompanion) noteFloor(result, reference.info, largestEntry(initialOf(resolved_, scheme_)));
     publish(result);
 }
 

@@ -187,9 +187,7 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
     }
     std::vector<Metric> metrics = metrics_;
     for (Metric& metric : metrics) metric = reference.sized(metric, scene_);
-    progress_.setPreparing(true);
-    confirmation_ = reference.confirmed(metrics.front(), stop);
-    progress_.setPreparing(false);
+    confirmation_ = reference.confirmed(metrics.front());
     metricSize_ = metrics.front().size();
     if (stop.stop_requested()) return;
     std::vector<SearchedScheme> schemes;

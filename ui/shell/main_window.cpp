@@ -238,6 +238,7 @@ void MainWindow::showStatus() {
         parts << tr("%n cores", nullptr, static_cast<int>(std::thread::hardware_concurrency()));
         if (results->reference.type != "none")
             parts << tr("reference: %1").arg(QString::fromStdString(results->reference.description));
+        if (!results->reference.caution.empty()) parts << QString::fromStdString(results->reference.caution);
     }
     switch (run_->state()) {
         case RunControl::State::running:

@@ -3,6 +3,8 @@
 /// better.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "engine/figure/against.hpp"
 
@@ -26,6 +28,24 @@ std::string referenceText(const ReferenceInfo& reference) {
     return text;
 }
 
+/// Where errors cannot be judged all along: the bound of the reference up to each time, and the last time up
+/// to which it is small.
+void addBound(Figure& figure, const FigureContext& context) {
+    const ReferenceInfo& reference = context.comparison.reference;
+    if (reference.boundAlong.empty() || isAgainstSteps(context.view)) return;
+    Guide bound;
+    bound.isStrong = true;
+    for (const ReferenceInfo::At& each : reference.boundAlong) {
+        bound.x.push_back(each.t);
+        bound.y.push_back(each.value > 0 ? each.value : std::numeric_limits<double>::quiet_NaN());
+    }
+    const double t = reference.boundAlong.front().t;
+    figure.add(std::move(bound));
+    if (!std::isfinite(reference.horizon)) return;
+    figure.add(Guide{{reference.horizon, reference.horizon}, {0x1p-52, reference.boundAlong.back().value}});
+    figure.add(Label{(t + reference.horizon) / 2, reference.boundAlong.back().value, "judged to here"});
+}
+
 Figure makeError(const FigureContext& context) {
     Figure figure = startFigure(context, "Error");
     figure.y = logAxis(axisTitle(symbolOf(context), columnInfo(context, "error").unit));
@@ -37,9 +57,11 @@ Figure makeError(const FigureContext& context) {
     const double scale = hasOwnMeasure ? context.system->error.scale : initialNorm(context.comparison, "q.");
     if (scale > 0) figure.put(RoundOffFloor{0x1p-52 * scale});
     if (reference.estimatedError > 0 && std::isfinite(reference.estimatedError)) {
-        figure.put(RoundOffFloor{std::max(floorOf(figure), reference.estimatedError)});
-        figure.put(DoubtfulBand{10 * reference.estimatedError});
+        if (reference.boundAlong.empty())
+            figure.put(RoundOffFloor{std::max(floorOf(figure), reference.estimatedError)});
+        if (reference.boundAlong.empty()) figure.put(DoubtfulBand{10 * reference.estimatedError});
     }
+    addBound(figure, context);
     for (const auto& scheme : context.comparison.schemes) {
         const double opensAt = scheme->summary.opensAt;
         if (!std::isfinite(opensAt) || isAgainstSteps(context.view)) continue;

@@ -13,6 +13,7 @@
 #include "engine/model/mechanics.hpp"
 #include "engine/model/parts/entries.hpp"
 #include "engine/model/typed/formula.hpp"
+#include "engine/model/typed/tape.hpp"
 
 namespace extremal::typed {
 
@@ -26,6 +27,9 @@ TypedMechanics makeMechanics(const Formula& formula);
 
 /// The same derivatives by their entries, of mechanics made above.
 LagrangianEntries entriesOf(const Mechanics<double>& mechanics);
+
+/// What computes its gradient in (q, v) from (q, v, t); null where the Lagrangian is not typed.
+const Tape* gradientTapeOf(const Mechanics<double>& mechanics);
 
 /// The terms of a Lagrangian that is typed in terms. Throws ExpressionError; `throwing`, where it is not
 /// null, is then the name of the term.

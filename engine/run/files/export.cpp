@@ -84,6 +84,8 @@ Value summaryRow(const Summary& s) {
     row.set("error_bar_opens_at", knownNumber(s.opensAt));
     row.set("max_constraint", knownNumber(s.maxConstraint));
     row.set("impacts", knownNumber(s.impacts));
+    row.set("floor", knownNumber(s.floor));
+    row.set("floor_of", knownText(s.floorOf));
     return row;
 }
 
@@ -428,6 +430,18 @@ Value summaryValue(const Comparison& comparison) {
     Value reference{Value::Object{}};
     reference.set("type", comparison.reference.type);
     reference.set("estimated_error", knownNumber(comparison.reference.estimatedError));
+    if (!comparison.reference.confirmedBy.empty()) {
+        reference.set("chosen", comparison.reference.chosen);
+        reference.set("confirmed_by", comparison.reference.confirmedBy);
+        reference.set("agreed", knownNumber(comparison.reference.agreed));
+        reference.set("bound", knownNumber(comparison.reference.bound));
+        reference.set("horizon", knownNumber(comparison.reference.horizon));
+    }
+    Value::Array seen;
+    for (const ReferenceInfo::At& pulse : comparison.reference.pulses)
+        seen.push_back(Value::Object{{"t", pulse.t}, {"width", pulse.value}});
+    if (!seen.empty()) reference.set("seen", std::move(seen));
+    if (!comparison.reference.caution.empty()) reference.set("caution", comparison.reference.caution);
     if (!comparison.reference.problems.empty())
         reference.set("problem", comparison.reference.problems.front().message);
     Value summary{Value::Object{}};

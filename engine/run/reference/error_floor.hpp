@@ -28,4 +28,8 @@ inline double roundOffFloor(double scale, long long steps) {
     return 2.2e-15 * scale * static_cast<double>(steps);
 }
 
+/// Fills the floor of a run and what it is of; a caution where its error is below the floor of a doubtful
+/// reference, and where its steps may miss a pulse of the force. `scale`: as above.
+void noteFloor(SchemeResult& result, const ReferenceInfo& reference, double scale);
+
 }  // namespace extremal

@@ -17,6 +17,7 @@
 #include "engine/model/parts/mesh_error.hpp"
 #include "engine/model/typed/branches.hpp"
 #include "engine/run/reference/exact_reference.hpp"
+#include "engine/run/reference/members.hpp"
 #include "engine/run/reference/reference_file.hpp"
 #include "engine/run/reference/shared_solution.hpp"
 #include "engine/run/reference/stepped_solution.hpp"
@@ -287,6 +288,7 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
             std::max(reference.info.estimatedError,
                      ofMesh->ofComputed({scene.initial.given, initial, scene.start.value, scene.end.value},
                                         reference.make(), stop));
+    confirmReference(reference, resolved, stop);
     return reference;
 }
 

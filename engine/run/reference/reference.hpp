@@ -5,6 +5,8 @@
 /// agree, evaluated on its dense output; where a run has many fast periods of a frequency that the model
 /// knows, steps over many periods in the same way, if they agree to 1e-11, so that the cost does not grow
 /// with the stiffness; for fields elements of high degree on a mesh that is finer than that of the scene;
+/// A computed reference of a system with coordinates is confirmed by a method of another kind (members.hpp).
+///
 /// scheme: a scheme of the user's choice; file: rows of a CSV, known only at their times; companion: of each
 /// scheme the same with one degree more (scene/outlook/companion.hpp).
 #pragma once
@@ -38,6 +40,8 @@ struct StepCounts {
     }
 };
 
+struct ReferencePair;
+
 struct Reference {
     ReferenceInfo info;
     /// Makes a solution for one run: each keeps its own place in time. Empty where there is no reference. At
@@ -46,6 +50,8 @@ struct Reference {
     /// Where it has a mesh of its own. `make` is read off it.
     MeshSolution onMesh = {};
     std::shared_ptr<StepCounts> counts = {};  ///< of a companion
+    /// Of a computed one, with that of another kind at the same times (members.hpp); null: there is none.
+    std::shared_ptr<const ReferencePair> pair = {};
 
     /// Computes the solution once for all its users, at these times. Not where its states at all of them are
     /// too many numbers. `width`: of the states of the scene.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/run/reference/error_floor.hpp"
+#include "engine/run/reference/members.hpp"
 
 namespace extremal {
 
@@ -44,17 +45,17 @@ ExactSolution SearchReference::of(const ResolvedScheme& scheme) const {
     return own.make ? own.make() : ExactSolution{};
 }
 
-Confirmation SearchReference::confirmed(const Metric& metric, const std::stop_token& stop) const {
+Confirmation SearchReference::confirmed(const Metric& metric) const {
     const bool areErrors = std::all_of(metric.terms.begin(), metric.terms.end(), [](const MetricTerm& t) {
         return t.observable && t.observable->item.id == "error";
     });
-    if (!scene_ || !reference_.make || reference_.info.type != "computed" || !areErrors) return {};
+    if (!scene_ || !reference_.pair || !areErrors) return {};
     std::vector<double> of(metric.terms.size());
     const auto distance = [&metric, of](std::span<const double> values) mutable {
         for (std::size_t i = 0; i < of.size(); ++i) of[i] = values[metric.terms[i].index];
         return metric.combined(of);
     };
-    return confirm(*scene_, table_ ? TabulatedSolution::reader(table_) : reference_.make(), distance, stop);
+    return confirmation(*reference_.pair, *scene_, distance);
 }
 
 Metric SearchReference::sized(const Metric& metric, const ResolvedScene& scene) const {

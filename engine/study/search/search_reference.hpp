@@ -27,7 +27,7 @@ public:
     ExactSolution of(const ResolvedScheme& scheme) const;
     /// Beside a method of another kind, in the metric; empty where there is no such method, or where the
     /// metric needs no reference.
-    Confirmation confirmed(const Metric& metric, const std::stop_token& stop) const;
+    Confirmation confirmed(const Metric& metric) const;
     /// The metric with the sizes of what it measures, in this reference; without one, those at the start.
     Metric sized(const Metric& metric, const ResolvedScene& scene) const;
 

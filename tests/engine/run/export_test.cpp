@@ -82,9 +82,9 @@ private slots:
                 "label,status,cause,failed_at,t_end,steps,rejected,newton_iterations,evaluations,"
                 "linear_solves,cpu_seconds,max_energy_error,energy_drift_per_unit_time,max_momentum_error,"
                 "max_norm_error,max_error,final_error,order_claimed,order_measured,error_bar_opens_at,max_"
-                "constraint,impacts"));
+                "constraint,impacts,floor,floor_of"));
         QVERIFY(summary.find(
-                    "\n\"RK4, h = 0.1\",failed,not-finite,0.3,0.2,10000000000,0,0,0,0,0,,,,,,,4,,,,\n") !=
+                    "\n\"RK4, h = 0.1\",failed,not-finite,0.3,0.2,10000000000,0,0,0,0,0,,,,,,,4,,,,,,\n") !=
                 std::string::npos);
         const Value document = parseJson(contents(folder / "summary.json"));
         QCOMPARE(document.find("title")->asString(), std::string("a \"title\""));
@@ -112,12 +112,14 @@ private slots:
         s.opensAt = 9;
         s.maxConstraint = 10;
         s.impacts = 11;
+        s.floor = 12;
+        s.floorOf = "reference";
         c.schemes = {known};
         QTemporaryDir temporary;
         const fs::path folder = temporary.path().toStdString();
         exportComparison(c, folder);
         const std::string table = contents(folder / "summary.csv");
-        QVERIFY2(table.ends_with(",1,2,3,4,5,6,7,8,9,10,11\n"), table.c_str());
+        QVERIFY2(table.ends_with(",1,2,3,4,5,6,7,8,9,10,11,12,reference\n"), table.c_str());
     }
 
     void aFullDiskLeavesNoHalfFile() {
