@@ -101,9 +101,10 @@ bool isObeyed(const CLI::App& app, const Arguments& arguments) {
                      "see extremal --help");
         return false;
     }
-    if (row->verb == "study extremes" && !arguments.scene.empty()) {
-        printProblem("arguments", "study extremes takes no SCENE, got \"" + arguments.scene + "\"",
-                     "it has scenes of its own");
+    if (row->verb == "study extremes" && !arguments.scene.empty() && arguments.study.x.empty()) {
+        printProblem("arguments",
+                     "study extremes takes no SCENE without --x, got \"" + arguments.scene + "\"",
+                     "it has scenes of its own; with --x POINTER=FROM:TO:N it takes a number of yours");
         return false;
     }
     if (row->verb == "study merge" && arguments.study.folders.empty()) {

@@ -109,8 +109,9 @@ void addStudy(CLI::App& app, Arguments& arguments) {
     verb.add_option("KIND", study.kind, "a study, or merge to put shards together")
         ->required()
         ->type_name("");
-    verb.add_option("SCENE", study.folders,
-                    std::string(sceneHelp) + "; for merge the folders of the shards; none for extremes")
+    verb.add_option(
+            "SCENE", study.folders,
+            std::string(sceneHelp) + "; for merge the folders of the shards; none for extremes without --x")
         ->type_name("");
     verb.add_option("--out", study.out, "folder for the files, created if missing")
         ->required()
@@ -129,15 +130,15 @@ void addStudy(CLI::App& app, Arguments& arguments) {
     verb.add_option("--to", study.to, "the smallest step")->type_name("H");
     verb.add_option("--points", study.points, "steps from --from to --to in equal ratios; 12 by default")
         ->type_name("N");
-    verb.add_option("--x", study.x, "for stability: a number of the scene and its values")
+    verb.add_option("--x", study.x, "for stability and extremes: a number of the scene and its values")
         ->type_name("POINTER=FROM:TO:N[:log]");
     verb.add_option("--y", study.y, "a second one")->type_name("POINTER=FROM:TO:N[:log]");
     verb.add_flag("--limit", study.findsLimits, "bisect the limit along --x to four digits");
     verb.add_flag("--long", study.isLong, "for extremes: also the runs of 10^9 steps, which take minutes");
     verb.add_option("--error", study.error, "for cheapest: the error to be reached")->type_name("E");
     verb.add_option("--wish", study.wishes,
-                    "for cheapest: a metric and the value it stays below; repeatable, all must hold; for "
-                    "needs: a rung of the ladder, 0.1 to 1e-12 by default")
+                    "for cheapest, limits and extremes: a metric and the value it stays below; repeatable, "
+                    "all must hold; for needs: a rung of the ladder, 0.1 to 1e-12 by default")
         ->type_name("METRIC=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -146,7 +147,8 @@ void addStudy(CLI::App& app, Arguments& arguments) {
                     "by default")
         ->type_name("scene|all");
     verb.add_option("--search-time", study.searchTime,
-                    "for cheapest and needs: CPU time of the search, 1s and 4s by default")
+                    "for cheapest and needs: CPU time of the search, 1s and 4s by default; for limits "
+                    "of each scheme, 2s")
         ->type_name("TIME");
     verb.add_option("--repeat", study.repeat, "timed runs per point, 5 by default; 0: no times")
         ->type_name("R");

@@ -218,7 +218,8 @@ int studyVerb(const std::string& scene, const StudyOptions& options, const Commo
     return guarded(sceneName(scene), [&] {
         const StudyEntry& study = knownStudy(options);
         ReadScene read;
-        const bool hasScene = study.over != StudyEntry::Over::extremes && !scene.empty();
+        const bool hasOwnScenes = study.over == StudyEntry::Over::extremes && options.x.empty();
+        const bool hasScene = !hasOwnScenes && !scene.empty();
         if (hasScene) {
             read = loadScene(scene, common);
             if (!reportScene(scene, read, common)) return static_cast<int>(unusable);
@@ -250,7 +251,8 @@ int mergeVerb(const StudyOptions& options, const CommonOptions& common) {
         const std::filesystem::path first = options.folders.front();
         const Value what = parseJson(head);
         const StudyEntry& study = entryOf(what.find("study")->asString());
-        if (study.over == StudyEntry::Over::extremes) {
+        const bool isChanged = what.find("options")->find("x") != nullptr;
+        if (study.over == StudyEntry::Over::extremes && !isChanged) {
             const Value* const withLong = what.find("options")->find("long");
             return mergeLogs(study, ExtremesStudy({}, 0, withLong && withLong->asBool()), nullptr, options,
                              common);
@@ -268,6 +270,12 @@ int mergeVerb(const StudyOptions& options, const CommonOptions& common) {
             return mergeLogs(study, StabilityStudy(*read.resolved, stabilityOptionsOf(given)), &read.scene,
                              options, common);
         if (study.over == StudyEntry::Over::testEquation)
+        if (study.over == StudyEntry::Over::extremes)
+            return mergeLogs(study, ExtremesStudy(*read.resolved, extremesOptionsOf(given)), &read.scene,
+                             options, common);
+        if (study.over == StudyEntry::Over::usableSteps)
+            return mergeLogs(study, LimitsStudy(*read.resolved, limitsOptionsOf(given)), &read.scene, options,
+                             common);
             return mergeLogs(study, LinearStudy(*read.resolved, linearOptionsOf(given)), &read.scene, options,
                              common);
         return mergeLogs(study, Sweep(*read.resolved, optionsOf(given)), &read.scene, options, common);

@@ -47,8 +47,9 @@ struct Study::Data {
 Study::Study(const std::string& kind, const Scene& scene, const StudyOptions& options) {
     const StudyRequest request = requestOf(kind, options);
     const StudyEntry& entry = knownStudy(request);
-    if (entry.over == StudyEntry::Over::extremes)
-        throw InvalidScene("arguments", "extremes has scenes of its own", "extremal study extremes runs it");
+    if (entry.over == StudyEntry::Over::extremes && request.x.empty())
+        throw InvalidScene("arguments", "extremes without x has scenes of its own",
+                           "extremal study extremes runs it");
     data_.reset(
         new Data{entry, makeStudy(entry, request, scene.data().read.resolved.get(), options.threads)});
 }

@@ -358,6 +358,46 @@ Figure studyFigure(std::string_view study, const LinearStudy& linear) {
     return figure;
 }
 
+Figure studyFigure(std::string_view study, const LimitsStudy& limits) {
+    Figure figure;
+    figure.view = study;
+    figure.title = "How large may h be?";
+    figure.subtitle = "broad: usable steps; thin: not usable, and why";
+    figure.x = logAxis(axisTitle("step h", limits.scene().system->timeUnit));
+    double height = 0, left = HUGE_VAL, right = 0;
+    for (const LimitsStudy::Row& row : limits.rows()) {
+        const SchemeSpec& spec = limits.scene().scene.schemes[row.scheme];
+        Series usable;
+        usable.label = spec.label;
+        usable.style = styleOf(spec, row.scheme);
+        usable.kind = SeriesKind::markedLine;
+        for (const StepRange& range : row.result.ranges) {
+            left = std::min(left, range.from);
+            right = std::max(right, range.to);
+            if (range.isUsable()) {
+                const std::vector<double> ends{range.from, range.to, PointResult::unknown};
+                usable.x.insert(usable.x.end(), ends.begin(), ends.end());
+                usable.y.insert(usable.y.end(), {height, height, PointResult::unknown});
+                figure.add(Guide{{range.from, range.to}, {height, height}, false, true});
+            } else {
+                figure.add(Guide{{range.from, range.to}, {height, height}});
+                constexpr double room = 1.4;  // for the word
+                if (range.to < room * range.from) continue;
+                figure.add(
+                    Label{std::sqrt(range.from * range.to), height + 0.25, std::string(name(range.reason))});
+            }
+        }
+        figure.y.ticks.emplace_back(height, spec.label);
+        if (!usable.x.empty()) figure.add(std::move(usable));
+        --height;
+    }
+    if (right > left) figure.x.range = {left, right};
+    figure.y.range = {height + 0.5, 0.5};
+    if (!(right > 0)) figure.message = "No point has a result";
+    figure.summary = "Usable steps of " + std::to_string(limits.rows().size()) + " schemes.";
+    return figure;
+}
+
 std::vector<Figure> studyFigures(std::string_view study, const LinearStudy& linear) {
     return {studyFigure(study, linear), regionFigure(linear)};
 }

@@ -10,6 +10,7 @@
 
 #include "engine/figure/figure.hpp"
 #include "engine/study/stability/extremes_study.hpp"
+#include "engine/study/stability/limits_study.hpp"
 #include "engine/study/stability/linear_study.hpp"
 #include "engine/study/stability/stability_study.hpp"
 #include "engine/study/sweep.hpp"
@@ -38,6 +39,9 @@ Figure studyFigure(std::string_view study, const StabilityStudy& stability,
 Figure studyFigure(std::string_view study, const LinearStudy& linear);
 /// It has none.
 inline Figure studyFigure(std::string_view, const ExtremesStudy&) { return {}; }
+
+/// Of every scheme a bar over h: steps that are usable, and by shades those that are not.
+Figure studyFigure(std::string_view study, const LimitsStudy& limits);
 
 /// All plots of a study, the one above first; those behind it are named by their views.
 template <class Study>

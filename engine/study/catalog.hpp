@@ -9,6 +9,7 @@
 #include "engine/core/catalog.hpp"
 #include "engine/core/value.hpp"
 #include "engine/study/stability/extremes_study.hpp"
+#include "engine/study/stability/limits_study.hpp"
 #include "engine/study/stability/linear_study.hpp"
 #include "engine/study/stability/stability_study.hpp"
 #include "engine/study/sweep.hpp"
@@ -25,8 +26,9 @@ struct StudyTable {
 struct StudyEntry {
     /// What it runs over: steps, the steps that a wanted error needs (SweepOptions::wantedError), or numbers
     /// of the scene (StabilityOptions), the steps of a test equation in place of the scene's model, or the
-    /// extremes of scenes of its own; or a ladder of wishes (SweepOptions::rungs).
-    enum class Over { steps, wantedError, numbers, testEquation, extremes, wishes };
+    /// extremes of scenes of its own; or a ladder of wishes (SweepOptions::rungs); or all steps, to find
+    /// those that are usable (LimitsOptions).
+    enum class Over { steps, wantedError, numbers, testEquation, extremes, wishes, usableSteps };
     CatalogItem item;
     Over over = Over::steps;
     std::vector<std::string> columns;  ///< of <id>.csv
@@ -53,6 +55,8 @@ std::vector<StudyTable> tablesOf(const StudyEntry& study, const LinearStudy& lin
 StudyTable summaryOf(const StudyEntry& study, const LinearStudy& linear);
 std::vector<StudyTable> tablesOf(const StudyEntry& study, const ExtremesStudy& extremes);
 StudyTable summaryOf(const StudyEntry& study, const ExtremesStudy& extremes);
+std::vector<StudyTable> tablesOf(const StudyEntry& study, const LimitsStudy& limits);
+StudyTable summaryOf(const StudyEntry& study, const LimitsStudy& limits);
 /// A table as CSV, and its rows as an array of objects.
 std::string csvText(const StudyTable& table);
 Value rowsValue(const StudyTable& table);

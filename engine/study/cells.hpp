@@ -43,6 +43,20 @@ inline std::vector<std::string> cellsOf(std::string_view line) {
     return cells;
 }
 
+/// A text as one cell: without commas.
+inline std::string withoutCommas(std::string text) {
+    for (std::size_t at = 0; (at = text.find_first_of("%,\n", at)) != std::string::npos; at += 3)
+        text.replace(at, 1, text[at] == '%' ? "%25" : text[at] == ',' ? "%2C" : "%0A");
+    return text;
+}
+inline std::string withCommas(std::string text) {
+    for (std::size_t at = 0; (at = text.find('%', at)) != std::string::npos; ++at) {
+        const std::string code = text.substr(at, 3);
+        text.replace(at, 3, code == "%2C" ? "," : code == "%0A" ? "\n" : "%");
+    }
+    return text;
+}
+
 /// By its name; converged for anything else.
 inline Outcome outcomeOf(std::string_view text) {
     for (int k = 0; k <= static_cast<int>(Outcome::stopped); ++k)

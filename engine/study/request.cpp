@@ -38,8 +38,8 @@ Wish parseWish(const std::string& text, bool isRung) {
     return {text.substr(0, equals), *value};
 }
 
-/// "1", "1s", "500ms"; in seconds.
-double parseSeconds(const std::string& text) {
+/// "1", "1s", "500ms", "20us"; in seconds.
+double parseSeconds(const std::string& text, const std::string& option) {
     std::string number = text;
     double unit = 1;
     if (number.ends_with("ms")) {
@@ -50,17 +50,24 @@ double parseSeconds(const std::string& text) {
     }
     const auto seconds = parseNumber(number);
     if (!seconds || !(std::isfinite(*seconds) && *seconds > 0))
-        throw InvalidScene("--search-time", "must be a time above 0, got \"" + text + "\"",
-                           "for example 500ms or 2s");
+        throw InvalidScene(option, "must be a time above 0, got \"" + text + "\"", "for example 500ms or 2s");
     return *seconds * unit;
 }
 
 void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
     using Over = StudyEntry::Over;
-    const auto refuse = [&](bool isGiven, Over over, const char* option, const char* whose) {
-        const bool isSearch = over == Over::wantedError && entry.over == Over::wishes;
-        if (isGiven && entry.over != over && !(isSearch && std::string_view(option) != "--error"))
-            throw InvalidScene(option, "is not an option of " + entry.item.id,
+    // Options of several studies.
+    const bool isChanged = entry.over == Over::extremes && !study.x.empty(),
+               hasWishes = entry.over == Over::wishes || entry.over == Over::usableSteps || isChanged;
+    const auto refuse = [&](bool isGiven, Over over, std::string_view option, const char* whose) {
+        bool isOwn = entry.over == over;
+        if (option == "--wish") isOwn = isOwn || hasWishes;
+        if (option == "--candidates") isOwn = isOwn || entry.over == Over::wishes;
+        if (option == "--search-time")
+            isOwn = isOwn || entry.over == Over::wishes || entry.over == Over::usableSteps;
+        if (option == "--x" || option == "--y") isOwn = isOwn || isChanged;
+        if (isGiven && !isOwn)
+            throw InvalidScene(std::string(option), "is not an option of " + entry.item.id,
                                std::string(whose) + " has it");
     };
     refuse(study.error != 0, Over::wantedError, "--error", "cheapest");
@@ -77,12 +84,15 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
                                           {study.points != 0, "--points"}})
         refuse(isGiven, Over::steps, option, "convergence");
     const StudyRequest usual;
-    if (entry.over != Over::wantedError && entry.over != Over::wishes)
+    if (entry.over != Over::wantedError && !hasWishes)
         for (const auto& [isGiven, option] : {std::pair{study.metric != usual.metric, "--metric"},
                                               {study.isFinal, "--final"},
                                               {study.repeat != usual.repeat, "--repeat"}})
             refuse(isGiven, Over::steps, option, "convergence");
-    if (entry.over == Over::extremes && !study.only.empty())
+    if (entry.over == Over::usableSteps || isChanged)
+        refuse(study.repeat != usual.repeat, Over::steps, "--repeat", "convergence");
+    refuse(isChanged && study.isLong, Over::steps, "--long", "extremes without a scene");
+    if (entry.over == Over::extremes && !isChanged && !study.only.empty())
         throw InvalidScene("--only", "is not an option of " + entry.item.id, "convergence has it");
     if (!study.steps.empty() && (study.from != 0 || study.to != 0))
         throw InvalidScene("--steps", "says what --from and --to say as well", "one or the other");
@@ -120,7 +130,7 @@ Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadd
         if (study.wishes.empty()) options.rungs = usualRungs();
     }
     options.hasAllCandidates = study.candidates == "all" || (isLadder && study.candidates.empty());
-    if (!study.searchTime.empty()) options.searchSeconds = parseSeconds(study.searchTime);
+    if (!study.searchTime.empty()) options.searchSeconds = parseSeconds(study.searchTime, "--search-time");
     options.isAtEnd = study.isFinal;
     options.ladder = {study.steps, study.from, study.to, study.points};
     if (study.steps.empty() && (study.from != 0 || study.to != 0) && study.points == 0)
@@ -145,6 +155,43 @@ StabilityStudy stabilityOf(const ResolvedScene& scene, const StudyRequest& study
     return {scene, options};
 }
 
+/// "METRIC=VALUE", all of which must hold; the metric alone is a wish of a thousandth of its size.
+std::vector<Wish> wishesOf(const StudyRequest& study) {
+    std::vector<Wish> all;
+    for (const std::string& text : study.wishes) {
+        all.push_back(parseWish(text, false));
+        if (!(all.back().value > 0))
+            throw InvalidScene("--wish", "must be positive and finite, got " + formatNumber(all.back().value),
+                               "for example error.theta=1e-3");
+    }
+    return all;
+}
+
+LimitsStudy limitsOf(const ResolvedScene& scene, const StudyRequest& study, unsigned threads) {
+    LimitsOptions options;
+    options.metric = study.metric;
+    options.isAtEnd = study.isFinal;
+    options.wishes = wishesOf(study);
+    if (!study.searchTime.empty()) options.seconds = parseSeconds(study.searchTime, "--search-time");
+    options.only = study.only;
+    options.shard = parseShard(study.shard);
+    options.threads = threads;
+    return {scene, options};
+}
+
+ExtremesStudy extremesOf(const ResolvedScene& scene, const StudyRequest& study, unsigned threads) {
+    ExtremesOptions options;
+    options.x = parseAxis(study.x, "--x");
+    if (!study.y.empty()) options.y = parseAxis(study.y, "--y");
+    options.metric = study.metric;
+    options.isAtEnd = study.isFinal;
+    options.wishes = wishesOf(study);
+    options.only = study.only;
+    options.shard = parseShard(study.shard);
+    options.threads = threads;
+    return {scene, options};
+}
+
 }  // namespace
 
 const StudyEntry& knownStudy(const StudyRequest& request) {
@@ -160,7 +207,7 @@ const StudyEntry& knownStudy(const StudyRequest& request) {
 
 AnyStudy makeStudy(const StudyEntry& entry, const StudyRequest& request, const ResolvedScene* scene,
                    unsigned threads) {
-    if (entry.over == StudyEntry::Over::extremes)
+    if (entry.over == StudyEntry::Over::extremes && request.x.empty())
         return ExtremesStudy(parseShard(request.shard), threads, request.isLong);
     if (!scene) throw InvalidScene("arguments", "SCENE is required", "see extremal study --help");
     switch (entry.over) {
@@ -174,3 +221,7 @@ AnyStudy makeStudy(const StudyEntry& entry, const StudyRequest& request, const R
 }
 
 }  // namespace extremal
+        case StudyEntry::Over::extremes:
+            return extremesOf(*scene, request, threads);
+        case StudyEntry::Over::usableSteps:
+            return limitsOf(*scene, request, threads);

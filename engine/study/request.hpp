@@ -22,7 +22,7 @@ struct StudyRequest {
     std::vector<std::string> only;
 };
 
-using AnyStudy = std::variant<Sweep, StabilityStudy, LinearStudy, ExtremesStudy>;
+using AnyStudy = std::variant<Sweep, StabilityStudy, LinearStudy, ExtremesStudy, LimitsStudy>;
 
 /// The entry of its kind. Throws InvalidScene where there is none, and where the request has options that
 /// belong to another study, or lacks one: none is silently ignored.

@@ -18,21 +18,17 @@
 #include "engine/run/reference/confirmation.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/study/progress.hpp"
+#include "engine/study/search/candidates.hpp"
 #include "engine/study/search/ladder.hpp"
 #include "engine/study/search/metric.hpp"
-#include "engine/study/search/candidates.hpp"
 #include "engine/study/search/point.hpp"
+#include "engine/study/wish.hpp"
 
 namespace extremal {
 
 class CandidateSearch;
-
-/// What is wished of a metric: a value that it stays below.
-struct Wish {
-    std::string metric;
-    double value = 0;
-    bool operator==(const Wish&) const = default;
-};
+class SearchReference;
+struct SearchedScheme;
 
 struct SweepOptions {
     std::string metric = "error";

@@ -11,20 +11,6 @@ namespace {
 
 long long count(const std::string& text) { return static_cast<long long>(parseNumber(text).value_or(0)); }
 
-/// A text as one cell: without commas.
-std::string withoutCommas(std::string text) {
-    for (std::size_t at = 0; (at = text.find_first_of("%,\n", at)) != std::string::npos; at += 3)
-        text.replace(at, 1, text[at] == '%' ? "%25" : text[at] == ',' ? "%2C" : "%0A");
-    return text;
-}
-std::string withCommas(std::string text) {
-    for (std::size_t at = 0; (at = text.find('%', at)) != std::string::npos; ++at) {
-        const std::string code = text.substr(at, 3);
-        text.replace(at, 3, code == "%2C" ? "," : code == "%0A" ? "\n" : "%");
-    }
-    return text;
-}
-
 std::string errorsText(const std::vector<double>& errors) {
     std::string text;
     for (const double error : errors) text += (text.empty() ? "" : " ") + formatNumber(error);

@@ -19,12 +19,12 @@ struct StudyOptions {
     double from = 0, to = 0;
     int points = 0;
     double error = 0;                    ///< cheapest: the error to be reached
-    std::string x = {}, y = {};          ///< stability: "POINTER=FROM:TO:N[:log]"
+    std::string x = {}, y = {};          ///< stability, extremes: "POINTER=FROM:TO:N[:log]"
     bool findsLimits = false;            ///< stability: bisect the limit along x
     int repeat = 5;                      ///< timed runs of each point; 0: no times
     std::vector<std::string> only = {};  ///< labels of schemes; empty: all that are enabled
     unsigned threads = 0;
-    std::vector<std::string> wishes = {};  ///< cheapest: "METRIC=VALUE", all of which must hold
+    std::vector<std::string> wishes = {};  ///< cheapest, limits, extremes: "METRIC=VALUE", all must hold
     std::string candidates = {};           ///< cheapest, needs: "scene", or "all" schemes that accept it
     std::string searchTime = {};           ///< cheapest: CPU time of the search ("2s"); empty: the usual one
 };
@@ -37,8 +37,8 @@ struct Table {
 
 class EXTREMAL_API Study {
 public:
-    /// Of the catalogue "studies", but for "extremes", which has no scene. Throws InvalidScene; its pointers
-    /// are the options of the command line ("--error").
+    /// Of the catalogue "studies"; "extremes" with an x, as without it has no scene. Throws InvalidScene; its
+    /// pointers are the options of the command line ("--error").
     Study(const std::string& kind, const Scene& scene, const StudyOptions& options = {});
     ~Study();
     Study(const Study&) = delete;

@@ -62,7 +62,8 @@ def run(source, changes=(), *, threads=0, progress=None, folder="", trust=False)
 
 
 def study(kind, source, changes=(), *, progress=None, folder="", trust=False, **options):
-    """Runs a study ("convergence", "work-precision", "cheapest", "stability", "linear-stability") and returns it.
+    """Runs a study ("convergence", "work-precision", "cheapest", "needs", "stability", "limits", "extremes",
+    "linear-stability") and returns it.
 
     Options: metric, final, steps, from_step, to_step, points, error, x, y, limit, repeat, only, threads, wishes,
     candidates, search_time, as those of `extremal study`. The result has tables (dicts of columns) and figures().

@@ -63,6 +63,7 @@ QStringList callOf(const QString& verb) {
         {"study needs", words("study needs s.json --repeat 0")},
         {"study stability", words("study stability s.json")},
         {"study linear-stability", words("study linear-stability s.json")},
+        {"study limits", words("study limits s.json")},
         {"study extremes", words("study extremes --shard 1/1000")},
         {"study merge", words("study merge one two")},
         {"atlas", words("atlas --quick --systems harmonic-oscillator")},
@@ -85,10 +86,18 @@ QStringList needsOf(const QString& verb) {
         {"study cheapest", words("--error 1e-2 --out d")},
         {"study needs", words("--wish 1e-2 --candidates scene --out d")},
         {"study stability", words("--x /schemes/*/step=0.1:1:2 --out d")},
+        {"study limits", words("--wish energy=1e-2 --search-time 100ms --out d")},
         {"atlas", words("--out d")},
         {"wisdom", words("--modes 8 --out w")},
     };
     return all.value(verb, verb.startsWith("study") ? words("--out d") : QStringList());
+}
+
+/// Options that the study of extremes has with a scene.
+const QStringList& extremesOfScene() {
+    static const QStringList all{"--set",  "--add",    "--trust", "--x",   "--y",
+                                 "--wish", "--metric", "--final", "--only"};
+    return all;
 }
 
 /// A pair of calls for an option. An error that names the option shows as well that it was read.
@@ -113,6 +122,25 @@ Sample sampleOf(const QString& verb, const QString& option) {
     if (option == "--measure") return {{"--measure"}, {"--no-measure"}};
     if (option == "--error") return replaced("1e-2", "1e-3");
     if (verb == "study needs" && option == "--wish") return replaced("1e-2", "1e-3");
+    if (verb == "study limits" && option == "--wish") return replaced("energy=1e-2", "energy=1e-3");
+    if (verb == "study limits" && option == "--search-time") return replaced("100ms", "nonsense");
+    if (verb == "study limits" && option == "--metric")
+        return {words("--out d --search-time 100ms"), words("--out d --search-time 100ms --metric energy")};
+    if (verb == "study extremes" && extremesOfScene().contains(option)) {
+        const QStringList given = words("s.json --x /schemes/*/step=0.1:1:2 --metric energy --out d");
+        const auto also = [&](const QString& more) { return Sample{given, given + words(more.toUtf8())}; };
+        if (option == "--set") return also("--set /time/end=1");
+        if (option == "--y") return also("--y /time/end=1:2:2");
+        if (option == "--wish") return also("--wish energy=1e-9");
+        if (option == "--only") return also("--only B");
+        if (option == "--final") return also("--final");
+        if (option == "--add") return also("--add nowhere");
+        if (option == "--trust") return Sample{given, given + QStringList{"--trust"}, {{"stranger"}}};
+        QStringList other = given;
+        if (option == "--x") other[2] = "/schemes/*/step=0.2:1:2";
+        if (option == "--metric") other[4] = "error";
+        return {given, other};
+    }
     if (verb == "study needs" && option == "--candidates") return replaced("scene", "all");
     if (option == "--x") return replaced("/schemes/*/step=0.1:1:2", "/schemes/*/step=0.1:1:3");
     if (option == "--modes") return added(words("--modes 16"));
@@ -246,7 +274,7 @@ private:
             const QByteArray log = QByteArray::fromStdString(head + ' ' + checksum(head) + '\n');
             QVERIFY(QDir(folder_.path()).mkdir("d"));
             for (const char* study : {"convergence", "work-precision", "cheapest", "needs", "stability",
-                                      "linear-stability", "extremes", "harmonic-oscillator.error"})
+                                      "linear-stability", "limits", "extremes", "harmonic-oscillator.error"})
                 write(QString("d/%1.log").arg(study), log);
             for (const char* slug : {"a", "b"})
                 write(QString("d/%1.checkpoint").arg(slug), "{ \"extremal\": 1, \"scene\": \"0\" }\n0\n");

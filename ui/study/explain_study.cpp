@@ -165,6 +165,30 @@ QString ofLinear(const LinearStudy&, const std::string& column) {
     return column == "scheme" ? say("The scheme of the scene, by its label.") : QString();
 }
 
+QString ofLimits(const LimitsStudy& study, const std::string& column) {
+    const QString wish = '\n' + say("Usable: done, and %1 stays below %2.")
+                                    .arg(QString::fromStdString(study.metrics().front().name),
+                                         std::isfinite(study.ground().wish) ? shortNumber(study.ground().wish)
+                                                                            : say("the wish"));
+    if (column == "usable from h") return say("The shortest step of this set that was run.") + wish;
+    if (column == "to h") return say("The longest step of this set that was run.") + wish;
+    if (column == "shorter steps")
+        return say(
+            "What ends the set towards shorter steps: accuracy, stability, resonance, the solver, or "
+            "the end of the search.");
+    if (column == "longer steps")
+        return say(
+            "What ends the set towards longer steps: accuracy, stability, resonance, the solver, or "
+            "the end of the search.");
+    if (column == "h omega at most")
+        return say(
+            "The longest step of the set times the highest frequency of the linearisation along the "
+            "reference.");
+    if (column == "error there") return say("The error with the longest step of the set.") + wish;
+    if (column == "remark") return say("Why there is no usable step.") + wish;
+    return column == "scheme" ? say("The scheme of the scene, by its label.") : QString();
+}
+
 /// The other columns are classes, counted.
 QString ofExtremes(const std::string& column) {
     if (column == "axis") return say("The name of a quantity that goes to its extremes.");
@@ -190,6 +214,8 @@ QString explainStudyCell(const AnyStudy& study, const std::string& column, const
         text = ofStability(*stability, column);
     else if (const auto* linear = std::get_if<LinearStudy>(&study))
         text = ofLinear(*linear, column);
+    else if (const auto* limits = std::get_if<LimitsStudy>(&study))
+        text = ofLimits(*limits, column);
     else
         text = ofExtremes(column);
     if (text.isEmpty()) return text;

@@ -80,8 +80,8 @@ void StudyForm::openChoices() {
 void StudyForm::showOptions() {
     using Over = StudyEntry::Over;
     const StudyEntry& entry = chosen();
-    const bool hasMetric =
-        entry.over == Over::steps || entry.over == Over::wantedError || entry.over == Over::wishes;
+    const bool hasMetric = entry.over == Over::steps || entry.over == Over::wantedError ||
+                           entry.over == Over::wishes || entry.over == Over::usableSteps;
     for (QWidget* each : std::initializer_list<QWidget*>{metricLabel_, metric_, isAtEnd_})
         each->setVisible(hasMetric);
     findsLimits_->setVisible(entry.over == Over::numbers);
@@ -132,6 +132,12 @@ Study StudyForm::study(const ResolvedScene& resolved, double wantedError) const 
     if (metric_->currentText().isEmpty())
         throw InvalidScene("", "the system has nothing that this study measures",
                            "a reference in the scene, or another study");
+    if (over == Over::usableSteps) {
+        LimitsOptions options;
+        options.wishes = {{metric_->currentText().toStdString(), wantedError}};
+        options.isAtEnd = isAtEnd_->isChecked();
+        return LimitsStudy(resolved, options);
+    }
     SweepOptions options;
     options.metric = metric_->currentText().toStdString();
     options.isAtEnd = isAtEnd_->isChecked();

@@ -37,6 +37,15 @@ void run(StabilityStudy& study, const Announce& announce, const std::stop_token&
         stop);
 }
 
+void run(LimitsStudy& study, const Announce& announce, const std::stop_token& stop) {
+    study.run(
+        [&](std::size_t i) {
+            announce(taking<LimitsStudy>(study.ground()));
+            announce(taking<LimitsStudy>(i, study.rows()[i].result));
+        },
+        stop);
+}
+
 template <class Kind>
 void run(Kind& study, const Announce& announce, const std::stop_token& stop) {
     study.run([&](std::size_t i) { announce(taking<Kind>(i, study.rows()[i].result)); }, stop);
@@ -46,6 +55,7 @@ bool isKnown(const SweepRow& row) { return row.result.status != RunStatus::waiti
 bool isKnown(const StabilityStudy::Row& row) { return row.result.kind != StabilityClass::waiting; }
 bool isKnown(const LinearStudy::Row& row) { return row.isKnown; }
 bool isKnown(const ExtremesStudy::Row& row) { return row.isKnown(); }
+bool isKnown(const LimitsStudy::Row& row) { return row.isKnown; }
 
 }  // namespace
 

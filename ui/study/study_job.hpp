@@ -13,13 +13,14 @@
 #include <vector>
 
 #include "engine/study/stability/extremes_study.hpp"
+#include "engine/study/stability/limits_study.hpp"
 #include "engine/study/stability/linear_study.hpp"
 #include "engine/study/stability/stability_study.hpp"
 #include "engine/study/sweep.hpp"
 
 namespace extremal {
 
-using Study = std::variant<Sweep, StabilityStudy, LinearStudy, ExtremesStudy>;
+using Study = std::variant<Sweep, StabilityStudy, LinearStudy, ExtremesStudy, LimitsStudy>;
 
 /// How many of its points are known, of all.
 struct StudyCount {

@@ -227,7 +227,7 @@ bool StudyPage::hasWantedError() const {
 
 void StudyPage::showKind() {
     const bool isAsked = hasWantedError() || form_->chosen().over == StudyEntry::Over::wantedError;
-    wanted_->setVisible(isAsked);
+    wanted_->setVisible(isAsked || form_->chosen().over == StudyEntry::Over::usableSteps);
     answer_->setVisible(isAsked);
     measure_->setVisible(isAsked);
     showState();

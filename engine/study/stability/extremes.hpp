@@ -12,14 +12,22 @@
 /// The measure is the largest error against the exact solution, relative to the size of the start, where the
 /// axis has one; else the largest change of the energy, relative to the energies of the motion
 /// (run/march/motion_check.hpp), or of the norm.
+///
+/// The same for a number of any scene, by its pointer: each case is then measured by the metrics of the
+/// study against the reference of its own scene, and is right where the wishes hold.
+///
+/// Beside its class each case has a judgement (judgement.hpp), which knows the floor of the reference.
 #pragma once
 
 #include <limits>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/value.hpp"
+#include "engine/study/stability/judgement.hpp"
+#include "engine/study/wish.hpp"
 
 namespace extremal {
 
@@ -34,6 +42,12 @@ struct ExtremeAxis {
     std::vector<std::string> values;
     std::size_t usual = 0;  ///< the first so many of them; runs of the others take minutes
     std::vector<Value> schemes;
+    // Of a scene of the user:
+    std::string pointer = {};  ///< where the values go; empty: this is an axis of resources/extremes
+    std::vector<std::pair<std::string, double>> fixed = {};  ///< other numbers that are changed
+    std::string measured = "error";                          ///< the metric, where there are no wishes
+    bool isAtEnd = false;
+    std::vector<Wish> wishes = {};
     const std::string& label(std::size_t scheme) const { return schemes[scheme].find("label")->asString(); }
 };
 /// In alphabetical order.
@@ -46,11 +60,15 @@ struct ExtremeCase {
 };
 /// Axis by axis, scheme by scheme, value by value. `withLong`: those that take minutes as well.
 std::vector<ExtremeCase> extremeCases(bool withLong = false);
+/// Of axes that outlive them.
+std::vector<ExtremeCase> extremeCases(const std::vector<ExtremeAxis>& axes, bool withLong);
 
 struct ExtremeResult {
     std::string kind;  ///< the class; empty: not known yet
     double measure = std::numeric_limits<double>::quiet_NaN();
     double failedAt = measure;
+    Judgement judgement = Judgement::unknown;
+    double floor = measure;  ///< of the measure: below it the reference tells nothing
 };
 ExtremeResult runExtreme(const ExtremeCase& extreme, const std::stop_token& stop);
 

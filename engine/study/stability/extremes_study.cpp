@@ -3,15 +3,62 @@
 
 #include <algorithm>
 
+#include "engine/core/problem.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "engine/study/cells.hpp"
+#include "engine/study/stability/judged_wishes.hpp"
 #include "engine/study/study_log.hpp"
 
 namespace extremal {
+namespace {
+
+/// The axis along x at a value of y.
+ExtremeAxis axisAlong(const ResolvedScene& scene, const ExtremesOptions& options,
+                      const std::optional<double>& y) {
+    ExtremeAxis axis;
+    axis.id = axis.pointer = options.x.pointer;
+    axis.title = "of the scene";
+    if (y) {
+        axis.fixed = {{options.y->pointer, *y}};
+        axis.id += " at " + options.y->pointer + " = " + formatNumber(*y);
+    }
+    axis.scene = toValue(scene.scene);
+    for (const double x : options.x.values()) axis.values.push_back(formatNumber(x));
+    axis.usual = axis.values.size();
+    axis.schemes = axis.scene.find("schemes")->asArray();
+    axis.measured = options.metric;
+    axis.isAtEnd = options.isAtEnd;
+    axis.wishes = options.wishes;
+    return axis;
+}
+
+}  // namespace
 
 ExtremesStudy::ExtremesStudy(Shard shard, unsigned threads, bool withLong)
     : shard_(shard), threads_(threads), withLong_(withLong) {
     requireShard(shard_);
     for (const ExtremeCase& each : extremeCases(withLong)) rows_.push_back({each});
+}
+
+ExtremesStudy::ExtremesStudy(const ResolvedScene& scene, const ExtremesOptions& options)
+    : shard_(options.shard),
+      threads_(options.threads),
+      options_(std::make_shared<const ExtremesOptions>(options)),
+      sceneText_(writeScene(scene.scene)) {
+    requireShard(shard_);
+    requireNumber(scene.scene, options.x, "--x");
+    if (options.y) requireNumber(scene.scene, *options.y, "--y");
+    (void)metricsOf(options.wishes, options.metric, options.isAtEnd, scene);
+    std::vector<ExtremeAxis> axes;
+    if (options.y)
+        for (const double y : options.y->values()) axes.push_back(axisAlong(scene, options, y));
+    else
+        axes.push_back(axisAlong(scene, options, {}));
+    own_ = std::make_shared<const std::vector<ExtremeAxis>>(std::move(axes));
+    const std::vector<std::size_t> chosen = chosenSchemes(scene.scene, options.only);
+    for (const ExtremeCase& each : extremeCases(*own_, false))
+        if (std::find(chosen.begin(), chosen.end(), each.scheme) != chosen.end()) rows_.push_back({each});
 }
 
 bool ExtremesStudy::isComplete() const {
@@ -29,16 +76,43 @@ void ExtremesStudy::run(const std::function<void(std::size_t)>& onCase, const st
 
 std::string headOf(const std::string& study, const ExtremesStudy& extremes) {
     std::string all;
+    if (extremes.options()) return headOf(study, optionsValue(*extremes.options()), extremes.sceneText());
     for (const ExtremesStudy::Row& row : extremes.rows()) all += row.at.text();
     return headOf(study, Value(Value::Object{{"long", extremes.hasLong()}}), all);
 }
 
+Value optionsValue(const ExtremesOptions& options) {
+    Value value;
+    value.set("x", textOf(options.x));
+    value.set("y", options.y ? textOf(*options.y) : "");
+    value.set("metric", options.metric);
+    value.set("final", options.isAtEnd);
+    Value::Array wishes;
+    for (const Wish& wish : options.wishes) wishes.push_back(Value::Array{wish.metric, wish.value});
+    value.set("wishes", wishes);
+    value.set("only", arrayOf(options.only));
+    return value;
+}
+
+ExtremesOptions extremesOptionsOf(const Value& value) {
+    ExtremesOptions options;
+    options.x = parseAxis(value.find("x")->asString(), "--x");
+    if (const std::string& y = value.find("y")->asString(); !y.empty()) options.y = parseAxis(y, "--y");
+    options.metric = value.find("metric")->asString();
+    options.isAtEnd = value.find("final")->asBool();
+    for (const Value& wish : value.find("wishes")->asArray())
+        options.wishes.push_back({wish.asArray()[0].asString(), wish.asArray()[1].asNumber()});
+    options.only = textsOf(*value.find("only"));
+    return options;
+}
+
 std::optional<std::size_t> takeLine(const std::string& line, ExtremesStudy& extremes) {
     const std::vector<std::string> cells = cellsOf(line);
-    if (cells.size() != 5 || cells.front() != "case") return {};
+    if (cells.size() != 7 || cells.front() != "case") return {};
     const auto index = cellIndex(cells[1]);
     if (index >= extremes.size()) return {};
-    extremes.take(index, {cells[2], cellNumber(cells[3]), cellNumber(cells[4])});
+    extremes.take(index, {cells[2], cellNumber(cells[3]), cellNumber(cells[4]), judgementOf(cells[5]),
+                          cellNumber(cells[6])});
     return index;
 }
 
@@ -47,7 +121,8 @@ void runLines(ExtremesStudy& extremes, const std::function<void(const std::strin
     extremes.run(
         [&](std::size_t i) {
             const ExtremeResult& r = extremes.rows()[i].result;
-            onLine("case," + std::to_string(i) + ',' + r.kind + cellsText({r.measure, r.failedAt}));
+            onLine("case," + std::to_string(i) + ',' + r.kind + cellsText({r.measure, r.failedAt}) + ',' +
+                   std::string(name(r.judgement)) + cellsText({r.floor}));
         },
         stop);
 }

@@ -1,21 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The study "extremes": every case of extremes.hpp. It has no scene. Its lines in the log:
+/// The study "extremes": every case of extremes.hpp, without a scene; or, with numbers that vary (--x, --y),
+/// every scheme of a scene over them. Its lines in the log:
 ///
 ///     {"extremal": 1, "study": "extremes", "options": {"long": false}, "scene": "<fingerprint of all
-///     cases>"} case,<index>,<class>,<measure>,<failed_at>
+///     cases>"} case,<index>,<class>,<measure>,<failed_at>,<judgement>,<floor>
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "engine/core/value.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/study/progress.hpp"
 #include "engine/study/stability/extremes.hpp"
+#include "engine/study/stability/stability.hpp"
 
 namespace extremal {
+
+/// Of a scene.
+struct ExtremesOptions {
+    VariedNumber x;
+    std::optional<VariedNumber> y = {};
+    std::string metric = "error";  ///< where there are no wishes: to a thousandth of its size
+    bool isAtEnd = false;
+    std::vector<Wish> wishes = {};
+    std::vector<std::string> only = {};
+    Shard shard = {};
+    unsigned threads = 0;
+};
 
 class ExtremesStudy {
 public:
@@ -29,7 +45,14 @@ public:
     /// minutes. Throws InvalidScene ("--shard").
     explicit ExtremesStudy(Shard shard = {}, unsigned threads = 0, bool withLong = false);
 
+    /// Of a scene: an axis along x for each value of y. Throws InvalidScene, with options as pointers.
+    ExtremesStudy(const ResolvedScene& scene, const ExtremesOptions& options);
+
     bool hasLong() const { return withLong_; }
+    /// Null of the study without a scene.
+    const ExtremesOptions* options() const { return options_.get(); }
+    const std::string& sceneText() const { return sceneText_; }
+    const std::vector<ExtremeAxis>& axes() const { return own_ ? *own_ : extremeAxes(); }
 
     const std::vector<Row>& rows() const { return rows_; }
     std::size_t size() const { return rows_.size(); }
@@ -43,11 +66,17 @@ public:
 private:
     Shard shard_;
     unsigned threads_;
-    bool withLong_;
+    bool withLong_ = false;
+    std::shared_ptr<const std::vector<ExtremeAxis>> own_ = {};  ///< of a scene; null: extremeAxes()
+    std::shared_ptr<const ExtremesOptions> options_ = {};
+    std::string sceneText_ = {};
     std::vector<Row> rows_;
     StudyProgress progress_;
 };
 
+/// Of a study of a scene.
+Value optionsValue(const ExtremesOptions& options);
+ExtremesOptions extremesOptionsOf(const Value& value);
 std::string headOf(const std::string& study, const ExtremesStudy& extremes);
 std::optional<std::size_t> takeLine(const std::string& line, ExtremesStudy& extremes);
 void runLines(ExtremesStudy& extremes, const std::function<void(const std::string&)>& onLine,

@@ -65,8 +65,19 @@ StabilityResult refused(std::string reason) {
     StabilityResult r;
     r.kind = StabilityClass::refused;
     r.cause = Outcome::refused;
+    r.judgement = Judgement::refused;
     r.reason = std::move(reason);
     return r;
+}
+
+/// `scale`: the energies of the motion; 0 where none is conserved.
+Judgement judgementOf(const StabilityResult& r, double scale) {
+    constexpr double right = 0.1;
+    if (r.kind == StabilityClass::blowUp && r.cause != Outcome::notFinite) return Judgement::lost;
+    if (!r.isBounded()) return judge(RunStatus::failed, r.cause, {});
+    JudgedValue energy{r.maxEnergyError, right * scale, scale, 0};
+    if (!(scale > 0)) energy.value = StabilityResult::unknown;
+    return judge(RunStatus::done, Outcome::converged, {&energy, 1});
 }
 
 StabilityResult runResolved(const ResolvedScene& scene, const std::stop_token& stop) {
@@ -120,6 +131,7 @@ StabilityResult runResolved(const ResolvedScene& scene, const std::stop_token& s
     else
         r.kind = line.drifts(duration, std::abs(first)) ? StabilityClass::drifting : StabilityClass::stable;
     if (!r.isBounded()) r.failedAt = isLost && isOut && !isLarge ? leftAt : lastTime;
+    r.judgement = judgementOf(r, motion.scale());
     return r;
 }
 
@@ -178,6 +190,12 @@ VariedNumber parseAxis(const std::string& text, const std::string& option) {
 std::string textOf(const VariedNumber& axis) {
     return axis.pointer + '=' + formatNumber(axis.from) + ':' + formatNumber(axis.to) + ':' +
            std::to_string(axis.count) + (axis.isLog ? ":log" : "");
+}
+
+void requireNumber(const Scene& scene, const VariedNumber& number, const char* option) {
+    const ReadScene read = readScene(toValue(scene), {{number.pointer, number.from}});
+    for (const Problem& p : read.errors)
+        if (!p.origin.empty()) throw InvalidScene(option, number.pointer + " " + p.message, p.hint);
 }
 
 StabilityResult runStability(const Scene& scene, std::size_t scheme,

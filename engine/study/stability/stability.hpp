@@ -22,6 +22,7 @@
 
 #include "engine/core/outcome.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/study/stability/judgement.hpp"
 
 namespace extremal {
 
@@ -42,12 +43,18 @@ struct VariedNumber {
 VariedNumber parseAxis(const std::string& text, const std::string& option);
 /// The text that it is parsed from.
 std::string textOf(const VariedNumber& axis);
+/// Throws InvalidScene (pointer `option`) where its pointer is not a number of the scene: an error of the
+/// option, and not of every point.
+void requireNumber(const Scene& scene, const VariedNumber& number, const char* option);
 
 struct StabilityResult {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     StabilityClass kind = StabilityClass::waiting;
     double growth = unknown, maxEnergyError = unknown, failedAt = unknown;
     Outcome cause = Outcome::converged;
+    /// By the energy error over the energies of the motion, as in the study of extremes: right up to 0.1. Of
+    /// a motion without a conserved energy a run that is done is not judged.
+    Judgement judgement = Judgement::unknown;
     std::string reason;  ///< of a refused point, in words; not exported
     bool isBounded() const { return kind == StabilityClass::stable || kind == StabilityClass::drifting; }
 };

@@ -16,14 +16,8 @@ namespace extremal {
 StabilityStudy::StabilityStudy(ResolvedScene scene, StabilityOptions options)
     : scene_(std::move(scene)), options_(std::move(options)) {
     requireShard(options_.shard);
-    // A pointer that is not a number of the scene is an error of the option, and not of every point.
-    const auto requireNumber = [&](const VariedNumber& number, const char* option) {
-        const ReadScene read = readScene(toValue(scene_.scene), {{number.pointer, number.from}});
-        for (const Problem& p : read.errors)
-            if (!p.origin.empty()) throw InvalidScene(option, number.pointer + " " + p.message, p.hint);
-    };
-    requireNumber(options_.x, "--x");
-    if (options_.y) requireNumber(*options_.y, "--y");
+    requireNumber(scene_.scene, options_.x, "--x");
+    if (options_.y) requireNumber(scene_.scene, *options_.y, "--y");
     std::vector<double> ys{StabilityResult::unknown};
     if (options_.y) ys = options_.y->values();
     for (const std::size_t scheme : chosenSchemes(scene_.scene, options_.only))
@@ -144,7 +138,7 @@ std::optional<std::size_t> takeLine(const std::string& line, StabilityStudy& sta
         stability.take(index, limit);
         return index;
     }
-    if (cells.front() != "point" || cells.size() != 7 || index >= stability.rows().size()) return {};
+    if (cells.front() != "point" || cells.size() != 8 || index >= stability.rows().size()) return {};
     StabilityResult r;
     for (const StabilityClass c : {StabilityClass::stable, StabilityClass::drifting, StabilityClass::blowUp,
                                    StabilityClass::solverFailed, StabilityClass::refused})
@@ -153,6 +147,7 @@ std::optional<std::size_t> takeLine(const std::string& line, StabilityStudy& sta
     r.growth = cellNumber(cells[4]);
     r.maxEnergyError = cellNumber(cells[5]);
     r.failedAt = cellNumber(cells[6]);
+    r.judgement = judgementOf(cells[7]);
     stability.take(index, r);
     return index;
 }
@@ -165,7 +160,8 @@ void runLines(StabilityStudy& stability, const std::function<void(const std::str
             if (i < points) {
                 const StabilityResult& r = stability.rows()[i].result;
                 onLine("point," + std::to_string(i) + ',' + std::string(name(r.kind)) + ',' +
-                       std::string(name(r.cause)) + cellsText({r.growth, r.maxEnergyError, r.failedAt}));
+                       std::string(name(r.cause)) + cellsText({r.growth, r.maxEnergyError, r.failedAt}) +
+                       ',' + std::string(name(r.judgement)));
             } else {
                 const StabilityLimit& l = stability.limits()[i - points].limit;
                 onLine("limit," + std::to_string(i) + cellsText({l.limit, l.low, l.high}));

@@ -3,7 +3,7 @@
 /// the first of them. Its lines in the log:
 ///
 ///     {"extremal": 1, "study": "stability", "options": {..}, "scene": "<fingerprint>"}
-///     point,<index>,<class>,<cause>,<growth>,<max_energy_error>,<failed_at>
+///     point,<index>,<class>,<cause>,<growth>,<max_energy_error>,<failed_at>,<judgement>
 ///     limit,<index>,<limit>,<low>,<high>
 ///
 /// Points are numbered scheme by scheme, y by y, along x; behind them the limits, scheme by scheme and y by

@@ -47,7 +47,8 @@ std::vector<StudyTable> tablesOf(const StudyEntry& study, const ExtremesStudy& e
     for (const ExtremesStudy::Row& row : extremes.rows())
         if (row.isKnown())
             cases.rows.push_back({row.at.axis->id, valueOf(row.at), labelOf(row.at), row.result.kind,
-                                  knownNumber(row.result.measure), knownNumber(row.result.failedAt)});
+                                  knownNumber(row.result.measure), knownNumber(row.result.failedAt),
+                                  knownText(name(row.result.judgement)), knownNumber(row.result.floor)});
     return {std::move(cases), domainsOf(extremes)};
 }
 
@@ -59,7 +60,7 @@ StudyTable summaryOf(const StudyEntry&, const ExtremesStudy& extremes) {
             kinds.push_back(row.result.kind);
     StudyTable table{"", {"axis", "what varies"}, {}};
     table.columns.insert(table.columns.end(), kinds.begin(), kinds.end());
-    for (const ExtremeAxis& axis : extremeAxes()) {
+    for (const ExtremeAxis& axis : extremes.axes()) {
         Value::Array row{axis.id, axis.title};
         for (const std::string& kind : kinds)
             row.push_back(positiveNumber(static_cast<double>(std::count_if(
@@ -77,12 +78,13 @@ StudyEntry extremes() {
     e.item = {"extremes",
               "Extremes",
               "Stiffness, eccentricity, steps, masses, turns, inertia ratios and more to their extremes, for "
-              "schemes of every family: where the domain of each ends. Needs no scene.",
+              "schemes of every family: where the domain of each ends. Needs no scene; with --x, any number "
+              "of a scene to its extremes.",
               {},
               {},
               ""};
     e.over = StudyEntry::Over::extremes;
-    e.columns = {"axis", "value", "scheme", "class", "measure", "failed_at"};
+    e.columns = {"axis", "value", "scheme", "class", "measure", "failed_at", "judgement", "floor"};
     return e;
 }
 

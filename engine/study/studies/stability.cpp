@@ -33,7 +33,8 @@ std::vector<StudyTable> tablesOf(const StudyEntry& study, const StabilityStudy& 
         if (r.kind == StabilityClass::waiting) continue;
         points.rows.push_back({labelOf(stability, row.scheme), row.x, knownNumber(row.y),
                                knownText(name(r.kind)), knownNumber(r.growth), knownNumber(r.maxEnergyError),
-                               knownNumber(r.failedAt), knownText(name(r.cause))});
+                               knownNumber(r.failedAt), knownText(name(r.cause)),
+                               knownText(name(r.judgement))});
     }
     StudyTable resonances{
         "stability-resonances", {"label", "x", "h_omega", "max_energy_error", "prominence"}, {}};
@@ -84,7 +85,7 @@ StudyEntry stability() {
         {},
         ""};
     e.over = StudyEntry::Over::numbers;
-    e.columns = {"label", "x", "y", "class", "growth", "max_energy_error", "failed_at", "cause"};
+    e.columns = {"label", "x", "y", "class", "growth", "max_energy_error", "failed_at", "cause", "judgement"};
     return e;
 }
 

@@ -69,6 +69,9 @@ private slots:
                 case StudyEntry::Over::testEquation:
                     explainsAll(entry, LinearStudy(shortKepler(), {}));
                     break;
+                case StudyEntry::Over::usableSteps:
+                    explainsAll(entry, LimitsStudy(shortKepler(), {}));
+                    break;
                 case StudyEntry::Over::extremes:
                     explainsAll(entry, ExtremesStudy());
                     break;
