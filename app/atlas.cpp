@@ -70,7 +70,7 @@ Figure pictureOf(const AtlasSystem& system) {
     const Sweep& sweep = system.errors();
     const auto labelOf = [&](std::size_t scheme) { return sweep.scene().scene.schemes[scheme].label; };
     std::set<std::string> shown;
-    const std::vector<bool> front = paretoFront(sweep.rows());
+    const std::vector<bool> front = paretoFront(sweep);
     for (std::size_t i = 0; i < front.size(); ++i)
         if (front[i]) shown.insert(labelOf(sweep.rows()[i].point.scheme));
     std::vector<Proposal> proposals = proposalsFor(sweep, 1e-6);

@@ -171,7 +171,7 @@ Figure workPrecisionFigure(const Sweep& sweep) {
     }
     std::vector<std::pair<double, double>> points;
     for (const SweepRow& row : sweep.rows())
-        if (row.result.isDone()) points.emplace_back(row.result.cpuSeconds, row.result.error);
+        if (sweep.isJudged(row.result)) points.emplace_back(row.result.cpuSeconds, row.result.error);
     addFront(figure, std::move(points));
     figure.subtitle = "lower left is better; on the broad line is what is worth its cost";
     finish(figure, "Errors against CPU time");

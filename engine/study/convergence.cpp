@@ -12,7 +12,7 @@ namespace extremal {
 
 double OrderFit::errorAt(double step) const { return std::exp(logConstant + order * std::log(step)); }
 
-OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale) {
+OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale, double most) {
     constexpr std::size_t fewest = 3;
     const double tolerance = 0.1 * std::log(10.0), leastR2 = 0.98;
     // Stretches of usable neighbours.
@@ -21,7 +21,7 @@ OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale) {
     for (const SweepRow& row : rows) {
         const double error = row.result.error;
         const bool isUsable = row.result.isDone() && row.point.step > 0 && std::isfinite(error) &&
-                              error > std::max(floor, roundOffFloor(scale, row.result.steps));
+                              error < most && error > std::max(floor, roundOffFloor(scale, row.result.steps));
         if (isUsable) {
             x.push_back(std::log(row.point.step));
             y.push_back(std::log(error));
@@ -32,14 +32,14 @@ OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale) {
     }
     if (breaks.back() != x.size()) breaks.push_back(x.size());
     OrderFit best;
-    std::size_t most = 0;
+    std::size_t longest = 0;
     for (std::size_t b = 0; b + 1 < breaks.size(); ++b)
         for (std::size_t first = breaks[b]; first + fewest <= breaks[b + 1]; ++first)
             for (std::size_t last = first + fewest; last <= breaks[b + 1]; ++last) {
                 const LineFit line = lineThrough(std::span(x).subspan(first, last - first),
                                                  std::span(y).subspan(first, last - first));
-                if (line.worst > tolerance || line.r2 < leastR2 || last - first < most) continue;
-                most = last - first;
+                if (line.worst > tolerance || line.r2 < leastR2 || last - first < longest) continue;
+                longest = last - first;
                 best.order = line.slope;
                 best.r2 = line.r2;
                 best.logConstant = line.constant;
@@ -50,9 +50,11 @@ OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale) {
 }
 
 std::vector<OrderFit> fitOrders(const Sweep& sweep) {
+    constexpr double likeTheMotion = 0.2;
     const double floor = referenceFloor(sweep.reference()), scale = largestEntry(sweep.scene().initial);
     std::vector<OrderFit> all;
-    for (const SchemeRows& scheme : bySchemes(sweep)) all.push_back(fitOrder(scheme.rows, floor, scale));
+    for (const SchemeRows& scheme : bySchemes(sweep))
+        all.push_back(fitOrder(scheme.rows, floor, scale, likeTheMotion * sweep.metricSize()));
     return all;
 }
 

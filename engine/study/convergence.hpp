@@ -27,8 +27,10 @@ struct OrderFit {
 };
 
 /// Of one scheme: its rows of a sweep, from the largest step down. Errors at or below `floor`, or the
-/// round-off of a state of size `scale`, do not count.
-OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale);
+/// round-off of a state of size `scale`, do not count, nor do those from `most` on, which are as large as the
+/// motion.
+OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale,
+                  double most = std::numeric_limits<double>::infinity());
 
 /// Of every scheme of a sweep, in the order of bySchemes().
 std::vector<OrderFit> fitOrders(const Sweep& sweep);

@@ -152,12 +152,13 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
     const auto referenceOf = [&](const StudyPoint& point) {
         const ResolvedScheme& run = scene_.schemes[point.scheme];
         if (point.step == 0 && scheme.make && !run.ownSystem) return scheme.make();
+        if (const ExactSolution solution =
+                scheme.make ? scheme.make() : reference.at(noRow, scene_, scene_.schemes.front());
+            solution && !scene_.schemes.front().ownSystem)
+            metric = sized(metric, scene_, solution);
+        metricSize_ = metric.size();
         return reference.at(point.row, scene_, run);
     };
-    if (metric.needsSizes())
-        if (const ExactSolution solution =
-                scheme.make ? scheme.make() : reference.at(noRow, scene_, scene_.schemes.front()))
-            metric = sized(metric, scene_, solution);
     const auto compute = [&](std::size_t i) {
         const StudyPoint& point = rows_[i].point;
         return runPoint(scene_, point, metric, referenceOf(point), options_.repeat, stop);
@@ -183,7 +184,6 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
         progress_.setPreparing(false);
         if (stop.stop_requested()) return;
         reference_ = reference.info();
-        if (onReference) onReference(reference_);
     }
     std::vector<Metric> metrics = metrics_;
     for (Metric& metric : metrics) metric = reference.sized(metric, scene_);
@@ -194,6 +194,7 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
     for (const SweepRow& row : isLadder ? searched_ : rows_)
         schemes.push_back({row.point, !isLadder && isOfScene(row.point.scheme)});
     const bool isCounted = options_.repeat == 0;
+    if (isNeeded && onReference) onReference(reference_);
     const double seconds = options_.searchSeconds > 0 ? options_.searchSeconds
                            : isCounted                ? std::numeric_limits<double>::infinity()
                            : isLadder                 ? usualOfLadder

@@ -77,6 +77,11 @@ public:
     const std::vector<RefusedCandidate>& refused() const { return refused_; }
     /// Whether a scheme is one of the scene, not a candidate that was added.
     bool isOfScene(std::size_t scheme) const { return scheme < ownSchemes_; }
+    /// Of the first metric, in the reference; infinity: not known.
+    double metricSize() const { return metricSize_; }
+    /// Whether an error says something of the scheme: above what the reference can tell, and below a fifth of
+    /// the motion.
+    bool isJudged(const PointResult& result) const;
     std::size_t size() const { return rows_.size(); }
     /// Of all points, in order: scheme by scheme, from the largest step down.
     const std::vector<SweepRow>& rows() const { return rows_; }
@@ -96,6 +101,7 @@ public:
     /// stopped, by one thread at a time; `onReference` before them, when it is known.
     void run(const std::function<void(const ReferenceInfo&)>& onReference,
              const std::function<void(std::size_t, const PointResult&)>& onPoint,
+    void takeSize(double size) { metricSize_ = size; }
              const std::stop_token& stop);
     /// 0..1; callable while it runs, as is the next.
     double fraction() const { return progress_.fraction(); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/study/sweep_log.hpp"
 
+#include <cmath>
+
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/study/cells.hpp"
@@ -119,7 +121,7 @@ std::string headOf(const std::string& study, const Sweep& sweep) {
 
 std::optional<std::size_t> takeLine(const std::string& line, Sweep& sweep) {
     const std::vector<std::string> cells = cellsOf(line);
-    if (cells.front() == "reference" && cells.size() == 3) {
+    if (cells.front() == "reference" && cells.size() == 4) {
         ReferenceInfo info;
         info.type = cells[1];
         info.estimatedError = cellNumber(cells[2]);
@@ -128,6 +130,8 @@ std::optional<std::size_t> takeLine(const std::string& line, Sweep& sweep) {
     if (cells.front() != "point") return {};
     const std::optional<PointResult> result = pointOf(cells);
     const std::size_t index = cellIndex(cells.size() > 1 ? cells[1] : "");
+        const double size = cellNumber(cells[3]);
+        sweep.takeSize(std::isfinite(size) ? size : HUGE_VAL);
     if (!result || index >= sweep.size()) return {};
     const PointResult& known = sweep.rows()[index].result;
     if (known.status != RunStatus::waiting && !isSameButForTimes(known, *result))
@@ -141,7 +145,7 @@ void runLines(Sweep& sweep, const std::function<void(const std::string&)>& onLin
               const std::stop_token& stop) {
     sweep.run(
         [&](const ReferenceInfo& info) {
-            onLine("reference," + info.type + ',' + cellOf(info.estimatedError));
+            onLine("reference," + info.type + cellsText({info.estimatedError, sweep.metricSize()}));
         },
         [&](std::size_t i, const PointResult& result) { onLine(pointLine(i, result)); }, stop);
 }

@@ -7,7 +7,7 @@
 ///           <degree>,<nodes>,<work without reduction>,<times the cheapest>,<excess>,<floor>,
 ///           <confirmed at>,<floor of>,<reason>,<errors of joint wishes, with blanks between them>,
 ///           <scheme of a ladder>
-///     reference,<type>,<estimated_error>
+///     reference,<type>,<estimated_error>,<size of what the metric measures>
 #pragma once
 
 #include <functional>

@@ -22,14 +22,27 @@ std::vector<std::size_t> paretoFront(const std::vector<std::pair<double, double>
     return front;
 }
 
-std::vector<bool> paretoFront(const std::vector<SweepRow>& rows) {
+namespace {
+
+template <class IsCounted>
+std::vector<bool> frontAmong(const std::vector<SweepRow>& rows, const IsCounted& isCounted) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     std::vector<std::pair<double, double>> points;
     for (const SweepRow& row : rows)
-        points.emplace_back(row.result.isDone() ? row.result.cpuSeconds : unknown, row.result.error);
+        points.emplace_back(isCounted(row.result) ? row.result.cpuSeconds : unknown, row.result.error);
     std::vector<bool> isInFront(rows.size(), false);
     for (const std::size_t i : paretoFront(points)) isInFront[i] = true;
     return isInFront;
+}
+
+}  // namespace
+
+std::vector<bool> paretoFront(const std::vector<SweepRow>& rows) {
+    return frontAmong(rows, [](const PointResult& r) { return r.isDone(); });
+}
+
+std::vector<bool> paretoFront(const Sweep& sweep) {
+    return frontAmong(sweep.rows(), [&](const PointResult& r) { return sweep.isJudged(r); });
 }
 
 }  // namespace extremal

@@ -17,5 +17,7 @@ std::vector<std::size_t> paretoFront(const std::vector<std::pair<double, double>
 
 /// One flag per row; false where error or time is not known.
 std::vector<bool> paretoFront(const std::vector<SweepRow>& rows);
+/// False as well where the error says nothing of the scheme (Sweep::isJudged).
+std::vector<bool> paretoFront(const Sweep& sweep);
 
 }  // namespace extremal

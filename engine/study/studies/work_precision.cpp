@@ -12,7 +12,7 @@ namespace {
 std::vector<Value::Array> rowsOfWork(const Sweep& sweep) {
     std::vector<Value::Array> all;
     const std::vector<SweepRow>& rows = sweep.rows();
-    const std::vector<bool> front = paretoFront(rows);
+    const std::vector<bool> front = paretoFront(sweep);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto& [point, result] = rows[i];
         if (result.status == RunStatus::waiting) continue;
@@ -29,7 +29,7 @@ std::vector<Value::Array> rowsOfWork(const Sweep& sweep) {
 /// What is worth its cost, the cheapest first.
 std::vector<const SweepRow*> frontOf(const Sweep& sweep) {
     const std::vector<SweepRow>& rows = sweep.rows();
-    const std::vector<bool> front = paretoFront(rows);
+    const std::vector<bool> front = paretoFront(sweep);
     std::vector<const SweepRow*> best;
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (front[i]) best.push_back(&rows[i]);
