@@ -465,11 +465,9 @@ LagrangianEntries entriesOf(const Mechanics<double>& mechanics) {
 const Landmarks* landmarksOf(const Mechanics<double>& mechanics) {
     return mechanics.jet == jet ? &self(mechanics.model.get()).landmarks : nullptr;
 }
-
 const Tape* gradientTapeOf(const Mechanics<double>& mechanics) {
     return mechanics.jet == jet ? &self(mechanics.model.get()).gradient : nullptr;
 }
-
 std::shared_ptr<const Branches> branchesOf(const Mechanics<double>& mechanics) {
     return mechanics.jet == jet ? self(mechanics.model.get()).branches : nullptr;
 }

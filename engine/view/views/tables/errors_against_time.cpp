@@ -6,97 +6,62 @@
 namespace extremal::views {
 
 std::vector<ViewEntry> errors_against_time() {
+    const auto row = [](const char* id, const char* title, const char* description, const char* observable,
+                        const ErrorAgainstTime& recipe) {
+        return ViewEntry{.item = viewItem(id, title, description, {againstField()}),
+                         .recipe = recipe,
+                         .scales = logAgainstTime,
+                         .observable = observable};
+    };
     return {
-        {.item = viewItem("mesh-residual", "Mesh residual",
-                          "of moving meshes, the largest difference of shares of neighbouring elements "
-                          "against time or steps, logarithmic",
-                          {againstField()}),
-         .recipe = ErrorAgainstTime{"mesh_residual", "max |g|", 1},
-         .scales = logAgainstTime,
-         .observable = "mesh-residual"},
-        {.item = viewItem("balance", "Balance of energy and work",
-                          "|H − H(0) − W| of every scheme against time or steps, logarithmic: what energy "
-                          "is where forces and moving constraints do the work W",
-                          {againstField()}),
-         .recipe = ErrorAgainstTime{"balance", "|H − H(0) − W|"},
-         .scales = logAgainstTime,
-         .observable = "balance"},
-        {.item = viewItem("constraint", "Distance from the constraints",
-                          "largest |g| of every scheme against time or steps, logarithmic", {againstField()}),
-         .recipe = ErrorAgainstTime{"constraint", "max |g|, |a v − b|"},
-         .scales = logAgainstTime,
-         .observable = "constraint"},
-        {.item =
-             viewItem("local-error", "Local error",
-                      "the error made in each step, logarithmic, against time or steps", {againstField()}),
-         .recipe = ErrorAgainstTime{"local_error", "|d|"},
-         .scales = logAgainstTime,
-         .observable = "local-error"},
-        {.item = viewItem("modified-energy", "Modified energy error",
-                          "|H_h − H_h(0)| against time or steps, logarithmic: the modified energy, which "
-                          "symplectic schemes keep up to tiny terms, and others do not",
-                          {againstField()}),
-         .recipe = ErrorAgainstTime{"modified_energy_error", "|H_h − H_h(0)|", 1},
-         .scales = logAgainstTime,
-         .observable = "modified-energy"},
+        row("mesh-residual", "Mesh residual",
+            "of moving meshes, the largest difference of shares of neighbouring elements against time or "
+            "steps, logarithmic",
+            "mesh-residual", {"mesh_residual", "max |g|", 1}),
+        row("balance", "Balance of energy and work",
+            "|H − H(0) − W| of every scheme against time or steps, logarithmic: what energy is where forces "
+            "and moving constraints do the work W",
+            "balance", {"balance", "|H − H(0) − W|"}),
+        row("constraint", "Distance from the constraints",
+            "largest |g| of every scheme against time or steps, logarithmic", "constraint",
+            {"constraint", "max |g|, |a v − b|"}),
+        row("local-error", "Local error", "the error made in each step, logarithmic, against time or steps",
+            "local-error", {"local_error", "|d|"}),
+        row("modified-energy", "Modified energy error",
+            "|H_h − H_h(0)| against time or steps, logarithmic: the modified energy, which symplectic "
+            "schemes keep up to tiny terms, and others do not",
+            "modified-energy", {"modified_energy_error", "|H_h − H_h(0)|", 1}),
         // Of moving meshes the largest multiplier of equidistribution, an indicator of the error of the
         // discrete action; of discretizations in coordinates that of continuity.
-        {.item = viewItem("multiplier", "Multiplier",
-                          "size of the multiplier of continuity, or of that of a moving mesh, against time "
-                          "or steps, logarithmic",
-                          {againstField()}),
-         .recipe = ErrorAgainstTime{"multiplier", "|λ|", 0},
-         .scales = logAgainstTime,
-         .observable = "multiplier"},
-        {.item = viewItem("norm", "Norm error",
-                          "change of the norm of the wave function against time or steps, logarithmic",
-                          {againstField()}),
-         .recipe = ErrorAgainstTime{"norm_error", "|‖ψ‖ − ‖ψ(0)‖|", 1},
-         .scales = logAgainstTime,
-         .observable = "norm"},
-        {.item =
-             viewItem("reversibility", "There and back",
-                      "distance between the state of the run and that of a run back from its end, against "
-                      "time or steps, logarithmic",
-                      {againstField()}),
-         .recipe = ErrorAgainstTime{"reversibility", "|x back − x|", 1},
-         .scales = logAgainstTime,
-         .observable = "reversibility"},
-        {.item = viewItem("transported-error", "Transported error",
-                          "what the local errors have become, carried along by the tangent maps of the "
-                          "steps, logarithmic, against time or steps",
-                          {againstField()}),
-         .recipe = ErrorAgainstTime{"transported_error", "|e|"},
-         .scales = logAgainstTime,
-         .observable = "local-error"},
-        {.item = viewItem("volume", "Phase-space volume",
-                          "|det M − 1| against time or steps, logarithmic; M is the tangent map of a step",
-                          {againstField()}),
-         .recipe = ErrorAgainstTime{"volume", "|det M − 1|", 1},
-         .scales = logAgainstTime,
-         .observable = "volume"},
-        {.item = viewItem("discrete-energy", "Discrete energy error",
-                          "|E_d − E_d(0)| of discretizations against time or steps, logarithmic: constant "
-                          "where the times are unknowns; the energy at the nodes is another thing",
-                          {againstField()}),
-         .recipe = ErrorAgainstTime{"discrete_energy_error", "|E_d − E_d(0)|", 1},
-         .scales = logAgainstTime,
-         .observable = "discrete-energy"},
-        {.item =
-             viewItem("symplecticity", "Symplecticity",
-                      "largest entry of MᵀJM − J against time or steps, logarithmic; M is the tangent map "
-                      "of a step",
-                      {againstField()}),
-         .recipe = ErrorAgainstTime{"symplecticity", "max |MᵀJM − J|", 1},
-         .scales = logAgainstTime,
-         .observable = "symplecticity"},
-        {.item = viewItem("symplecticity-accumulated", "Symplecticity, accumulated",
-                          "largest entry of PᵀJP − J against time or steps, logarithmic, over the square of "
-                          "that of P, the product of the tangent maps of all steps",
-                          {againstField()}),
-         .recipe = ErrorAgainstTime{"symplecticity_accumulated", "|PᵀJP − J|/|P|²", 1},
-         .scales = logAgainstTime,
-         .observable = "symplecticity"},
+        row("multiplier", "Multiplier",
+            "size of the multiplier of continuity, or of that of a moving mesh, against time or steps, "
+            "logarithmic",
+            "multiplier", {"multiplier", "|λ|", 0}),
+        row("norm", "Norm error",
+            "change of the norm of the wave function against time or steps, logarithmic", "norm",
+            {"norm_error", "|‖ψ‖ − ‖ψ(0)‖|", 1}),
+        row("reversibility", "There and back",
+            "distance between the state of the run and that of a run back from its end, against time or "
+            "steps, logarithmic",
+            "reversibility", {"reversibility", "|x back − x|", 1}),
+        row("transported-error", "Transported error",
+            "what the local errors have become, carried along by the tangent maps of the steps, logarithmic, "
+            "against time or steps",
+            "local-error", {"transported_error", "|e|"}),
+        row("volume", "Phase-space volume",
+            "|det M − 1| against time or steps, logarithmic; M is the tangent map of a step", "volume",
+            {"volume", "|det M − 1|", 1}),
+        row("discrete-energy", "Discrete energy error",
+            "|E_d − E_d(0)| of discretizations against time or steps, logarithmic: constant where the times "
+            "are unknowns; the energy at the nodes is another thing",
+            "discrete-energy", {"discrete_energy_error", "|E_d − E_d(0)|", 1}),
+        row("symplecticity", "Symplecticity",
+            "largest entry of MᵀJM − J against time or steps, logarithmic; M is the tangent map of a step",
+            "symplecticity", {"symplecticity", "max |MᵀJM − J|", 1}),
+        row("symplecticity-accumulated", "Symplecticity, accumulated",
+            "largest entry of PᵀJP − J against time or steps, logarithmic, over the square of that of P, the "
+            "product of the tangent maps of all steps",
+            "symplecticity", {"symplecticity_accumulated", "|PᵀJP − J|/|P|²", 1}),
     };
 }
 
