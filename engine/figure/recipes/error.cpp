@@ -23,7 +23,9 @@ std::string referenceText(const ReferenceInfo& reference) {
     if (reference.type == "exact") return "reference: exact";
     std::string text =
         "reference: " + (reference.description.empty() ? reference.type : reference.description);
-    if (std::isfinite(reference.estimatedError))
+    if (std::isfinite(reference.horizon))
+        text += ", good to t = " + shortNumber(reference.horizon, 3);
+    else if (std::isfinite(reference.estimatedError))
         text += ", good to " + shortNumber(reference.estimatedError, 1);
     return text;
 }
@@ -39,11 +41,10 @@ void addBound(Figure& figure, const FigureContext& context) {
         bound.x.push_back(each.t);
         bound.y.push_back(each.value > 0 ? each.value : std::numeric_limits<double>::quiet_NaN());
     }
-    const double t = reference.boundAlong.front().t;
     figure.add(std::move(bound));
     if (!std::isfinite(reference.horizon)) return;
     figure.add(Guide{{reference.horizon, reference.horizon}, {0x1p-52, reference.boundAlong.back().value}});
-    figure.add(Label{(t + reference.horizon) / 2, reference.boundAlong.back().value, "judged to here"});
+    figure.add(Label{reference.horizon, 2 * reference.boundAlong.back().value, "judged to here"});
 }
 
 Figure makeError(const FigureContext& context) {

@@ -48,7 +48,8 @@ public:
     const System& system() const { return system_; }
     const std::vector<double>& times() const { return times_; }
     std::size_t width() const { return width_; }
-    double size() const { return std::max(size_, measure_.scale); }
+    /// The size of the motion, in which an angle counts as 1 rad at most, however often it turns.
+    double size() const { return size_ > 0 ? size_ : measure_.scale; }
 
     /// A code with error control; empty where it is not there, or does not take the system.
     std::optional<Member> controlled(std::initializer_list<const char*> ids,
@@ -156,7 +157,10 @@ private:
                 return;
             }
             double norm = 0;
-            for (std::size_t k = 0; k < d; ++k) norm = std::hypot(norm, x[k]);
+            for (std::size_t k = 0; k < d; ++k) {
+                const bool isAngle = system_.coordinates[k].unit == "rad";
+                norm = std::hypot(norm, isAngle ? std::min(std::abs(x[k]), 1.0) : x[k]);
+            }
             size_ = std::max(size_, norm);
             if (!energy_) continue;
             const double off = std::abs(energy_(times_[i], x) - first);
