@@ -142,6 +142,11 @@ void addStudy(CLI::App& app, Arguments& arguments) {
         ->type_name("METRIC=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option(
+            "--budget", study.budget,
+            "for cheapest: the smallest error for this CPU time of a run (1ms), or of a second of its "
+            "motion (1ms/s)")
+        ->type_name("TIME[/s]");
     verb.add_option("--candidates", study.candidates,
                     "for cheapest: the schemes of the scene (default), or all that accept it; for needs all "
                     "by default")

@@ -43,7 +43,7 @@ inline const std::vector<VerbOptions>& optionTable() {
                                    files,
                                    study,
                                    sweep,
-                                   {"--error", "--wish", "--candidates", "--search-time"}})},
+                                   {"--error", "--wish", "--budget", "--candidates", "--search-time"}})},
         {"study needs",
          joined({scene, words, limits, files, study, sweep, {"--wish", "--candidates", "--search-time"}})},
         {"study stability", joined({scene, words, limits, files, study, {"--x", "--y", "--limit"}})},

@@ -85,6 +85,10 @@ bool isReached(const StudyEntry& study, const Sweep& sweep, const StudyTable& ta
     if (study.over != StudyEntry::Over::wantedError) return true;
     const auto isDone = [](const SweepRow& row) { return row.result.isDone(); };
     if (std::any_of(sweep.rows().begin(), sweep.rows().end(), isDone)) return true;
+    if (sweep.options().budget > 0) {
+        printProblem("--budget", "no scheme runs within it", "a larger one, or --candidates all");
+        return false;
+    }
     if (const std::string unjudged = sweep.unjudged(sweep.options().wantedError); !unjudged.empty()) {
         printProblem("--error", unjudged, "an earlier end (--set /time/end=...), or --metric energy");
         return false;
@@ -266,16 +270,16 @@ int mergeVerb(const StudyOptions& options, const CommonOptions& common) {
             throw InvalidScene("arguments", first.string() + ": scene.json is not the scene of the log",
                                "the folder as extremal study wrote it");
         const Value& given = *what.find("options");
-        if (study.over == StudyEntry::Over::numbers)
-            return mergeLogs(study, StabilityStudy(*read.resolved, stabilityOptionsOf(given)), &read.scene,
-                             options, common);
-        if (study.over == StudyEntry::Over::testEquation)
         if (study.over == StudyEntry::Over::extremes)
             return mergeLogs(study, ExtremesStudy(*read.resolved, extremesOptionsOf(given)), &read.scene,
                              options, common);
         if (study.over == StudyEntry::Over::usableSteps)
             return mergeLogs(study, LimitsStudy(*read.resolved, limitsOptionsOf(given)), &read.scene, options,
                              common);
+        if (study.over == StudyEntry::Over::numbers)
+            return mergeLogs(study, StabilityStudy(*read.resolved, stabilityOptionsOf(given)), &read.scene,
+                             options, common);
+        if (study.over == StudyEntry::Over::testEquation)
             return mergeLogs(study, LinearStudy(*read.resolved, linearOptionsOf(given)), &read.scene, options,
                              common);
         return mergeLogs(study, Sweep(*read.resolved, optionsOf(given)), &read.scene, options, common);

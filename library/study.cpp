@@ -34,6 +34,7 @@ StudyRequest requestOf(const std::string& kind, const StudyOptions& options) {
     request.wishes = options.wishes;
     request.candidates = options.candidates;
     request.searchTime = options.searchTime;
+    request.budget = options.budget;
     return request;
 }
 

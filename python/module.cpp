@@ -296,11 +296,11 @@ void bindStudy(py::module_& m) {
                          double error, const std::string& x, const std::string& y, bool limit, int repeat,
                          const std::vector<std::string>& only, unsigned threads,
                          const std::vector<std::string>& wishes, const std::string& candidates,
-                         const std::string& searchTime) {
+                         const std::string& budget, const std::string& searchTime) {
                  return std::make_unique<api::Study>(
                      kind, scene,
                      api::StudyOptions{metric, final, steps, from, to, points, error, x, y, limit, repeat,
-                                       only, threads, wishes, candidates, searchTime});
+                                       only, threads, wishes, candidates, budget, searchTime});
              }),
              py::arg("kind"), py::arg("scene"), py::kw_only(), py::arg("metric") = "error",
              py::arg("final") = false, py::arg("steps") = std::vector<double>(), py::arg("from_step") = 0,
@@ -308,7 +308,7 @@ void bindStudy(py::module_& m) {
              py::arg("y") = "", py::arg("limit") = false, py::arg("repeat") = 5,
              py::arg("only") = std::vector<std::string>(), py::arg("threads") = 0,
              py::arg("wishes") = std::vector<std::string>(), py::arg("candidates") = "",
-             py::arg("search_time") = "")
+             py::arg("budget") = "", py::arg("search_time") = "")
         .def(
             "run",
             [](api::Study& study, const std::optional<py::function>& progress) {

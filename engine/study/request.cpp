@@ -42,7 +42,10 @@ Wish parseWish(const std::string& text, bool isRung) {
 double parseSeconds(const std::string& text, const std::string& option) {
     std::string number = text;
     double unit = 1;
-    if (number.ends_with("ms")) {
+    if (number.ends_with("us")) {
+        unit = 1e-6;
+        number.resize(number.size() - 2);
+    } else if (number.ends_with("ms")) {
         unit = 1e-3;
         number.resize(number.size() - 2);
     } else if (number.ends_with("s")) {
@@ -72,6 +75,7 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
     };
     refuse(study.error != 0, Over::wantedError, "--error", "cheapest");
     refuse(!study.wishes.empty(), Over::wantedError, "--wish", "cheapest");
+    refuse(!study.budget.empty(), Over::wantedError, "--budget", "cheapest");
     refuse(!study.candidates.empty(), Over::wantedError, "--candidates", "cheapest");
     refuse(!study.searchTime.empty(), Over::wantedError, "--search-time", "cheapest");
     refuse(!study.x.empty(), Over::numbers, "--x", "stability");
@@ -96,9 +100,9 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
         throw InvalidScene("--only", "is not an option of " + entry.item.id, "convergence has it");
     if (!study.steps.empty() && (study.from != 0 || study.to != 0))
         throw InvalidScene("--steps", "says what --from and --to say as well", "one or the other");
-    if (entry.over == Over::wantedError && study.error == 0 && study.wishes.empty())
+    if (entry.over == Over::wantedError && study.error == 0 && study.wishes.empty() && study.budget.empty())
         throw InvalidScene("--error", "is required for " + entry.item.id,
-                           "for example --error 1e-6, or --wish energy=1e-6");
+                           "for example --error 1e-6, --wish energy=1e-6, or --budget 1ms");
     if (!study.candidates.empty() && study.candidates != "scene" && study.candidates != "all")
         throw InvalidScene("--candidates", "must be scene or all, got \"" + study.candidates + "\"");
     if (entry.over == Over::numbers && study.x.empty())
@@ -129,6 +133,13 @@ Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadd
         options.wishes.clear();
         if (study.wishes.empty()) options.rungs = usualRungs();
     }
+    if (std::string budget = study.budget; !budget.empty()) {
+        options.isPerTime = budget.ends_with("/s");
+        if (options.isPerTime) budget.resize(budget.size() - 2);
+        options.budget = parseSeconds(budget, "--budget");
+        // Without a wish the metric is compared as it is.
+        if (options.wantedError == 0) options.wantedError = 1;
+    }
     options.hasAllCandidates = study.candidates == "all" || (isLadder && study.candidates.empty());
     if (!study.searchTime.empty()) options.searchSeconds = parseSeconds(study.searchTime, "--search-time");
     options.isAtEnd = study.isFinal;
@@ -138,17 +149,6 @@ Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadd
     if (study.points > 0 && study.from == 0 && study.to == 0)
         throw InvalidScene("--points", "needs --from and --to");
     options.repeat = study.repeat;
-    options.only = study.only;
-    options.shard = parseShard(study.shard);
-    options.threads = threads;
-    return {scene, options};
-}
-
-StabilityStudy stabilityOf(const ResolvedScene& scene, const StudyRequest& study, unsigned threads) {
-    StabilityOptions options;
-    options.x = parseAxis(study.x, "--x");
-    if (!study.y.empty()) options.y = parseAxis(study.y, "--y");
-    options.findsLimits = study.findsLimits;
     options.only = study.only;
     options.shard = parseShard(study.shard);
     options.threads = threads;
@@ -192,6 +192,17 @@ ExtremesStudy extremesOf(const ResolvedScene& scene, const StudyRequest& study, 
     return {scene, options};
 }
 
+StabilityStudy stabilityOf(const ResolvedScene& scene, const StudyRequest& study, unsigned threads) {
+    StabilityOptions options;
+    options.x = parseAxis(study.x, "--x");
+    if (!study.y.empty()) options.y = parseAxis(study.y, "--y");
+    options.findsLimits = study.findsLimits;
+    options.only = study.only;
+    options.shard = parseShard(study.shard);
+    options.threads = threads;
+    return {scene, options};
+}
+
 }  // namespace
 
 const StudyEntry& knownStudy(const StudyRequest& request) {
@@ -213,6 +224,10 @@ AnyStudy makeStudy(const StudyEntry& entry, const StudyRequest& request, const R
     switch (entry.over) {
         case StudyEntry::Over::numbers:
             return stabilityOf(*scene, request, threads);
+        case StudyEntry::Over::extremes:
+            return extremesOf(*scene, request, threads);
+        case StudyEntry::Over::usableSteps:
+            return limitsOf(*scene, request, threads);
         case StudyEntry::Over::testEquation:
             return LinearStudy(*scene, {request.only, parseShard(request.shard), threads});
         default:
@@ -221,7 +236,3 @@ AnyStudy makeStudy(const StudyEntry& entry, const StudyRequest& request, const R
 }
 
 }  // namespace extremal
-        case StudyEntry::Over::extremes:
-            return extremesOf(*scene, request, threads);
-        case StudyEntry::Over::usableSteps:
-            return limitsOf(*scene, request, threads);

@@ -17,6 +17,7 @@ struct StudyRequest {
     double from = 0, to = 0, error = 0;
     std::vector<std::string> wishes;  ///< "METRIC=VALUE"
     std::string candidates;           ///< "scene" or "all"; empty: "scene", of needs "all"
+    std::string budget;               ///< "1ms", "1ms/s"; empty: none
     std::string searchTime;           ///< "0.5", "500ms", "1s"; empty: the usual one
     int points = 0, repeat = 5;
     std::vector<std::string> only;

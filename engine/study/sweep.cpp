@@ -10,7 +10,9 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/run/reference/map_reference.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/outlook/cost.hpp"
+#include "engine/study/search/budget_search.hpp"
 #include "engine/study/search/candidate_search.hpp"
 #include "engine/study/search/search_reference.hpp"
 
@@ -82,6 +84,9 @@ void Sweep::checkOptions() const {
     for (const Wish& wish : options_.wishes) requireUsable(wish.value, "--wish");
     for (const double rung : options_.rungs) requireUsable(rung, "--wish");
     if (options_.searchSeconds != 0) requireUsable(options_.searchSeconds, "--search-time");
+    if (options_.budget != 0) requireUsable(options_.budget, "--budget");
+    if (options_.budget != 0 && options_.repeat == 0)
+        throw InvalidScene("--budget", "is CPU time, which --repeat 0 does not measure", "--repeat 1");
 }
 
 /// What the scene does not have itself.
@@ -147,16 +152,16 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         progress_.setPreparing(false);
         reference_ = scheme.make ? scheme.info : reference.info();
         if (stop.stop_requested()) return;
-        if (onReference) onReference(reference_);
-    }
-    const auto referenceOf = [&](const StudyPoint& point) {
-        const ResolvedScheme& run = scene_.schemes[point.scheme];
-        if (point.step == 0 && scheme.make && !run.ownSystem) return scheme.make();
         if (const ExactSolution solution =
                 scheme.make ? scheme.make() : reference.at(noRow, scene_, scene_.schemes.front());
             solution && !scene_.schemes.front().ownSystem)
             metric = sized(metric, scene_, solution);
         metricSize_ = metric.size();
+        if (onReference) onReference(reference_);
+    }
+    const auto referenceOf = [&](const StudyPoint& point) {
+        const ResolvedScheme& run = scene_.schemes[point.scheme];
+        if (point.step == 0 && scheme.make && !run.ownSystem) return scheme.make();
         return reference.at(point.row, scene_, run);
     };
     const auto compute = [&](std::size_t i) {
@@ -189,33 +194,60 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
     for (Metric& metric : metrics) metric = reference.sized(metric, scene_);
     confirmation_ = reference.confirmed(metrics.front());
     metricSize_ = metrics.front().size();
-    if (stop.stop_requested()) return;
-    std::vector<SearchedScheme> schemes;
-    for (const SweepRow& row : isLadder ? searched_ : rows_)
-        schemes.push_back({row.point, !isLadder && isOfScene(row.point.scheme)});
-    const bool isCounted = options_.repeat == 0;
     if (isNeeded && onReference) onReference(reference_);
+    if (stop.stop_requested()) return;
+    std::vector<SearchedScheme> searched;
+    for (const SweepRow& row : isLadder ? searched_ : rows_)
+        searched.push_back({row.point, !isLadder && isOfScene(row.point.scheme)});
+    const bool isCounted = options_.repeat == 0;
     const double seconds = options_.searchSeconds > 0 ? options_.searchSeconds
                            : isCounted                ? std::numeric_limits<double>::infinity()
                            : isLadder                 ? usualOfLadder
                                                       : usualSeconds;
+    const std::vector<Metric> sizedMetrics = metrics;
     CandidateSearch search(
-        scene_, std::move(schemes), std::move(metrics),
+        scene_, searched, std::move(metrics),
         [&](const StudyPoint& point) { return reference.of(scene_.schemes[point.scheme]); }, reference_,
         isCounted, seconds, stop);
     if (isLadder) return climb(search, wanted, onPoint, stop);
     std::vector<double> values;
     for (const Wish& wish : wishes()) values.push_back(wish.value);
     const std::string reason = unjudged(options_.wantedError);
-    std::vector<PointResult> results = reason.empty()
-                                           ? search.find(values, options_.repeat)
-                                           : std::vector<PointResult>(rows_.size(), notJudged(reason));
+    std::vector<PointResult> results =
+        !reason.empty()       ? std::vector<PointResult>(rows_.size(), notJudged(reason))
+        : options_.budget > 0 ? spend(searched, sizedMetrics, values, reference, seconds, stop)
+                              : search.find(values, options_.repeat);
     progress_.run(
         wanted, 1, stop, [&](std::size_t i) { return std::move(results[i]); },
         [&](std::size_t i, PointResult result) {
             rows_[i].result = std::move(result);
             if (onPoint) onPoint(i, rows_[i].result);
         });
+}
+
+/// The smallest error that a budget buys, of every scheme. A wish is then a unit for its metric.
+std::vector<PointResult> Sweep::spend(const std::vector<SearchedScheme>& schemes,
+                                      const std::vector<Metric>& metrics, const std::vector<double>& wishes,
+                                      const SearchReference& reference, double seconds,
+                                      const std::stop_token& stop) const {
+    std::vector<StudyPoint> points;
+    for (const SearchedScheme& each : schemes) points.push_back(each.point);
+    const double length = timeSpan(scene_.scene).length();
+    return bestWithin({scene_, points, metrics, wishes,
+                       [&](const StudyPoint& point) { return reference.of(scene_.schemes[point.scheme]); },
+                       options_.budget * (options_.isPerTime ? length : 1), seconds, options_.repeat},
+                      stop);
+}
+
+bool Sweep::isJudged(const PointResult& result) const {
+    constexpr double likeTheMotion = 0.2;
+    if (!result.isDone() || !std::isfinite(result.error)) return false;
+    const bool hasFloor =
+        metric().needsReference() && !metric().needsSizes() && std::isfinite(reference_.estimatedError);
+    const double floor =
+        hasFloor ? metric().combined(std::vector<double>(metric().terms.size(), reference_.estimatedError))
+                 : 0;
+    return result.error >= floor && result.error < likeTheMotion * metricSize_;
 }
 
 /// Only where the two methods part altogether: by a thousandth of the motion, as they do where it is chaotic.

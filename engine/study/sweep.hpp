@@ -42,7 +42,11 @@ struct SweepOptions {
     double wantedError = 0;
     std::vector<Wish> wishes = {};  ///< of a search: others that must hold as well
     bool hasAllCandidates = false;  ///< of a search: not only the scene's own schemes
-    double searchSeconds = 0;       ///< of CPU; 0: 1 s where runs are timed, else no limit
+    /// Above 0, of a search: not the cheapest for the wishes, but the smallest error for so many seconds of
+    /// CPU for a run, and if isPerTime for a unit of its time.
+    double budget = 0;
+    bool isPerTime = false;
+    double searchSeconds = 0;  ///< of CPU; 0: 1 s where runs are timed, else no limit
     /// Of a ladder of wishes, from the largest down: one point for each, the cheapest of all schemes.
     std::vector<double> rungs = {};
     unsigned threads = 0;  ///< 0: as many as the machine has cores
@@ -73,15 +77,15 @@ public:
     const Confirmation& confirmation() const { return confirmation_; }
     /// Of a search: why an error this small cannot be judged; empty where it can.
     std::string unjudged(double wish) const;
-    /// Of all candidates: those that do not accept the system.
-    const std::vector<RefusedCandidate>& refused() const { return refused_; }
-    /// Whether a scheme is one of the scene, not a candidate that was added.
-    bool isOfScene(std::size_t scheme) const { return scheme < ownSchemes_; }
     /// Of the first metric, in the reference; infinity: not known.
     double metricSize() const { return metricSize_; }
     /// Whether an error says something of the scheme: above what the reference can tell, and below a fifth of
     /// the motion.
     bool isJudged(const PointResult& result) const;
+    /// Of all candidates: those that do not accept the system.
+    const std::vector<RefusedCandidate>& refused() const { return refused_; }
+    /// Whether a scheme is one of the scene, not a candidate that was added.
+    bool isOfScene(std::size_t scheme) const { return scheme < ownSchemes_; }
     std::size_t size() const { return rows_.size(); }
     /// Of all points, in order: scheme by scheme, from the largest step down.
     const std::vector<SweepRow>& rows() const { return rows_; }
@@ -97,11 +101,11 @@ public:
     }
     /// The reference of points that are known already.
     void take(ReferenceInfo reference) { reference_ = std::move(reference); }
+    void takeSize(double size) { metricSize_ = size; }
     /// Runs what is not known and belongs to the shard. `onPoint` is called for each point that was not
     /// stopped, by one thread at a time; `onReference` before them, when it is known.
     void run(const std::function<void(const ReferenceInfo&)>& onReference,
              const std::function<void(std::size_t, const PointResult&)>& onPoint,
-    void takeSize(double size) { metricSize_ = size; }
              const std::stop_token& stop);
     /// 0..1; callable while it runs, as is the next.
     double fraction() const { return progress_.fraction(); }
@@ -117,6 +121,10 @@ private:
                const std::function<void(std::size_t, const PointResult&)>& onPoint,
                const std::stop_token& stop);
     void checkOptions() const;
+    std::vector<PointResult> spend(const std::vector<SearchedScheme>& schemes,
+                                   const std::vector<Metric>& metrics, const std::vector<double>& wishes,
+                                   const SearchReference& reference, double seconds,
+                                   const std::stop_token& stop) const;
     void runSearch(const std::vector<std::size_t>& wanted,
                    const std::function<void(const ReferenceInfo&)>& onReference,
                    const std::function<void(std::size_t, const PointResult&)>& onPoint,

@@ -92,6 +92,8 @@ Value optionsValue(const SweepOptions& options) {
     value.set("wishes", wishes);
     value.set("all candidates", options.hasAllCandidates);
     value.set("search time", options.searchSeconds);
+    value.set("budget", options.budget);
+    value.set("per time", options.isPerTime);
     value.set("rungs", arrayOf(options.rungs));
     return value;
 }
@@ -111,6 +113,8 @@ SweepOptions optionsOf(const Value& value) {
         options.wishes.push_back({wish.asArray()[0].asString(), wish.asArray()[1].asNumber()});
     options.hasAllCandidates = value.find("all candidates")->asBool();
     options.searchSeconds = value.find("search time")->asNumber();
+    options.budget = value.find("budget")->asNumber();
+    options.isPerTime = value.find("per time")->asBool();
     options.rungs = numbersOf(*value.find("rungs"));
     return options;
 }
@@ -126,12 +130,12 @@ std::optional<std::size_t> takeLine(const std::string& line, Sweep& sweep) {
         info.type = cells[1];
         info.estimatedError = cellNumber(cells[2]);
         sweep.take(info);
+        const double size = cellNumber(cells[3]);
+        sweep.takeSize(std::isfinite(size) ? size : HUGE_VAL);
     }
     if (cells.front() != "point") return {};
     const std::optional<PointResult> result = pointOf(cells);
     const std::size_t index = cellIndex(cells.size() > 1 ? cells[1] : "");
-        const double size = cellNumber(cells[3]);
-        sweep.takeSize(std::isfinite(size) ? size : HUGE_VAL);
     if (!result || index >= sweep.size()) return {};
     const PointResult& known = sweep.rows()[index].result;
     if (known.status != RunStatus::waiting && !isSameButForTimes(known, *result))

@@ -26,6 +26,7 @@ struct StudyOptions {
     unsigned threads = 0;
     std::vector<std::string> wishes = {};  ///< cheapest, limits, extremes: "METRIC=VALUE", all must hold
     std::string candidates = {};           ///< cheapest, needs: "scene", or "all" schemes that accept it
+    std::string budget = {};               ///< cheapest: CPU time of a run ("1ms") or of its time ("1ms/s")
     std::string searchTime = {};           ///< cheapest: CPU time of the search ("2s"); empty: the usual one
 };
 

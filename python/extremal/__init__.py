@@ -66,7 +66,7 @@ def study(kind, source, changes=(), *, progress=None, folder="", trust=False, **
     "linear-stability") and returns it.
 
     Options: metric, final, steps, from_step, to_step, points, error, x, y, limit, repeat, only, threads, wishes,
-    candidates, search_time, as those of `extremal study`. The result has tables (dicts of columns) and figures().
+    candidates, budget, search_time, as those of `extremal study`. The result has tables (dicts of columns) and figures().
     """
     result = Study(kind, scene(source, changes, folder=folder, trust=trust), **options)
     result.run(progress)

@@ -131,7 +131,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
         const auto also = [&](const QString& more) { return Sample{given, given + words(more.toUtf8())}; };
         if (option == "--set") return also("--set /time/end=1");
         if (option == "--y") return also("--y /time/end=1:2:2");
-        if (option == "--wish") return also("--wish energy=1e-9");
+        if (option == "--wish") return also("--wish energy=10");
         if (option == "--only") return also("--only B");
         if (option == "--final") return also("--final");
         if (option == "--add") return also("--add nowhere");
@@ -182,6 +182,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
         {"--metric", words("--metric energy")},
         {"--final", words("--final")},
         {"--repeat", words("--repeat -1")},
+        {"--budget", words("--budget 1ms")},
         {"--wish", words("--wish energy=1e-5")},
         {"--candidates", words("--candidates all")},
         {"--search-time", words("--search-time soon")},

@@ -31,7 +31,10 @@ std::vector<const SweepRow*> ranked(const Sweep& sweep) {
     };
     std::stable_sort(all.begin(), all.end(), [&](const SweepRow* a, const SweepRow* b) {
         if (a->result.isDone() != b->result.isDone()) return a->result.isDone();
-        return a->result.isDone() ? cost(*a) < cost(*b) : a->result.error < b->result.error;
+        const bool isByError = !a->result.isDone() || sweep.options().budget > 0;
+        if (isByError && sweep.options().budget > 0 && a->result.isDone())
+            return a->result.excess < b->result.excess;
+        return isByError ? a->result.error < b->result.error : cost(*a) < cost(*b);
     });
     return all;
 }
@@ -125,7 +128,8 @@ std::vector<Value::Array> summaryOfPrices(const Sweep& sweep) {
                        : row[8].asString().empty() ? row[16]
                                                    : row[8],
                        row[9], row[10], row[17]});
-        if (isReached && sweep.options().hasAllCandidates) all.back()[7] = row[16];
+        if (isReached && (sweep.options().hasAllCandidates || sweep.options().budget > 0))
+            all.back()[7] = row[16];
     }
     return all;
 }
@@ -134,14 +138,15 @@ std::vector<Value::Array> summaryOfPrices(const Sweep& sweep) {
 
 StudyEntry cheapest() {
     StudyEntry e;
-    e.item = {"cheapest",
-              "The cheapest scheme",
-              "For a wanted error (--error), or several wishes (--wish), the largest step and the smallest "
-              "degree of every scheme that reach it, ranked by CPU time; of the schemes of the scene, or of "
-              "all that accept it (--candidates all).",
-              {},
-              {},
-              ""};
+    e.item = {
+        "cheapest",
+        "The cheapest scheme",
+        "For a wanted error (--error), or several wishes (--wish), the largest step and the smallest "
+        "degree of every scheme that reach it, ranked by CPU time; or for a budget of CPU time (--budget) "
+        "the smallest errors. Of the schemes of the scene, or of all that accept it (--candidates all).",
+        {},
+        {},
+        ""};
     e.columns = cheapestColumns();
     e.rows = rowsOfPrices;
     e.summaryColumns = {"rank",  "scheme", "step",      "predicted cpu", "cpu seconds", "evaluations",

@@ -12,6 +12,7 @@
 #include "engine/study/search/reductions.hpp"
 #include "engine/study/sweep.hpp"
 #include "engine/study/sweep_log.hpp"
+#include "tests/tools/pointer_of.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::cheapest_test {
@@ -282,6 +283,36 @@ private slots:
         QCOMPARE(schemeAt(*read.resolved, 0, copy.rows().front().result)
                      .discretization.quadrature.integer("nodes"),
                  2);
+    }
+    /// A larger budget never buys a larger error, and what is bought keeps within it.
+    void aBudgetBuysTheSmallestError() {
+        const ResolvedScene scene = *readScene(std::string(R"({"extremal":1,"model":{"type":"kepler"},
+            "initial":{"q":[0.4,0],"p":[0,2]},"time":{"end":50},
+            "schemes":[{"label":"SV","step":0.05,"baseline":"stormer-verlet"}]})"))
+                                         .resolved;
+        double before = 1;
+        for (const double budget : {6e-5, 2e-3}) {
+            SweepOptions options;
+            options.wantedError = 1;
+            options.hasAllCandidates = true;
+            options.budget = budget;
+            options.isPerTime = false;
+            options.repeat = 1;
+            Sweep sweep(scene, options);
+            sweep.run({}, {}, {});
+            double least = HUGE_VAL;
+            for (const SweepRow& row : sweep.rows())
+                if (row.result.isDone()) least = std::min(least, row.result.error);
+            qInfo("%g s: %g", budget, least);
+            QVERIFY(least < before);
+            before = least;
+        }
+        QVERIFY(before < 1e-9);  // 1e-13
+        SweepOptions counted;
+        counted.wantedError = 1;
+        counted.budget = 1e-3;
+        counted.repeat = 0;
+        QCOMPARE(pointerOf([&] { (void)Sweep(scene, counted); }), "--budget");
     }
 };
 
