@@ -115,8 +115,9 @@ std::vector<FieldInfo> mechanismFields() {
             field.example =
                 Value(Value::Object{{"O", Value::Object{{"at", Value::Array{0, 0}}, {"fixed", true}}},
                                     {"A", Value::Object{{"mass", 1}, {"at", Value::Array{0.6, -0.8}}}}});
-        if (field.key == "rods")
-            field.example = Value(Value::Object{{"rod", Value::Object{{"from", "O"}, {"to", "A"}}}});
+        if (field.key == "springs")
+            field.example = Value(Value::Object{
+                {"spring", Value::Object{{"from", "O"}, {"to", "A"}, {"stiffness", 20}, {"length", 0.8}}}});
     }
     return fields;
 }
