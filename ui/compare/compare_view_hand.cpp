@@ -3,6 +3,9 @@
 #include <QAction>
 #include <QMenu>
 
+#include "engine/model/parts/written_form.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/scene/write/typed_scene.hpp"
 #include "ui/base/card.hpp"
 #include "ui/compare/body_dragging.hpp"
 #include "ui/compare/compare_view.hpp"
@@ -57,8 +60,17 @@ void CompareView::connectSketch() {
     QAction* const draws = stageCard_->menu()->addAction(tr("Draw the mechanism"));
     draws->setCheckable(true);
     connect(draws, &QAction::triggered, this, [this] { drawMechanism(false); });
-    connect(stageCard_->menu(), &QMenu::aboutToShow, this, [this, draws] {
-        draws->setVisible(workspace_.hasScene() && workspace_.scene().model.type == "mechanism");
+    QAction* const writes =
+        stageCard_->menu()->addAction(tr("Write the mechanism as formulas"), this, [this] {
+            const Value typed = typedScene(*workspace_.resolved());
+            workspace_.edit({{"/model", *typed.find("model")}, {"/initial", *typed.find("initial")}},
+                            tr("Write the mechanism as formulas"));
+        });
+    connect(stageCard_->menu(), &QMenu::aboutToShow, this, [this, draws, writes] {
+        const bool isDrawn =
+            workspace_.hasScene() && workspace_.resolved()->system->parts.find<WrittenForm>();
+        draws->setVisible(isDrawn);
+        writes->setVisible(isDrawn);
         draws->setChecked(sketch_->isOpen());
     });
     // The sheet has the whole page, as far as the stage has not been given it before.
