@@ -53,6 +53,9 @@ private slots:
         QVERIFY(drawing.find({"motors", "motor1"}));
         for (int k = 0; k < 9; ++k) drawing.undo();
         QVERIFY(drawing.isEmpty() && !drawing.canUndo());
+        drawing.addPoint({5, 5}, false);  // what was taken back is gone
+        QVERIFY(!drawing.canRedo());
+        QCOMPARE(drawing.points().size(), std::size_t{1});
     }
     void whatHangsOnAnElementGoesWithIt() {
         MechanismDrawing drawing = crank();
