@@ -25,6 +25,21 @@ private slots:
             }
         }
     }
+    void aStepOfAHamiltonianAllocatesNothing() {
+        const System s =
+            systemNamed("hamiltonian", {{"coordinates", Value(Value::Array{"x", "y"})},
+                                        {"parameters", Value(Value::Object{})},
+                                        {"hamiltonian", "(p_x^2 + p_y^2)*(1 + x^2/2)/2 + x^2/2 + y^4/4"}});
+        const State start{0, 0, {0.4, -0.3, 0.2, 0.5}};
+        for (const Case& c : everyScheme(8, s)) {
+            const auto integrator = c.make(s, {0, 0.02});
+            State state = start;
+            for (int i = 0; i < 3; ++i) (void)advance(*integrator, state);
+            const long long before = allocations;
+            for (int i = 0; i < 100; ++i) QVERIFY(advance(*integrator, state).outcome == Outcome::converged);
+            QVERIFY2(allocations == before, c.name.c_str());
+        }
+    }
     void aStepOfABodyAllocatesNothing() {
         const std::vector<double> turning{1, 0, 0, 0, 0.4, 0.1, 0.9, 0.4, 0.1, 0.9};
         std::vector<double> moving = turning;
