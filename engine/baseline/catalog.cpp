@@ -8,6 +8,7 @@
 #include "engine/core/text/text.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/family/wave/wave.hpp"
+#include "engine/model/one_form.hpp"
 
 namespace extremal {
 
@@ -56,6 +57,8 @@ bool canIntegrate(const BaselineEntry& entry, const System& system) {
 Claims claimsOf(const BaselineEntry& entry, const Settings& settings, const System* system) {
     if (const auto* const onSystem = entry.parts.find<ClaimsOnSystem>(); system && onSystem)
         return onSystem->of(*system);
+    const auto* const onForms = entry.parts.find<ClaimsOnOneForms>();
+    if (onForms && system && system->parts.find<OneForm>()) return onForms->of(settings);
     const auto* const ofKeys = entry.parts.find<ClaimsOfKeys>();
     return ofKeys ? ofKeys->of(settings) : entry.item.claims.value_or(Claims{});
 }

@@ -88,7 +88,8 @@ protected:
             jacobian_.emplace(mechanics_);
             velocity_ = Vector::Zero(d());
         }
-        if (!mechanics_.velocity(mechanics_.model.get(), t, q.data(), p.data(), velocity_.data()))
+        if (mechanics_.velocity &&
+            !mechanics_.velocity(mechanics_.model.get(), t, q.data(), p.data(), velocity_.data()))
             return nullptr;
         return &jacobian_->evaluate(t, q.data(), p.data(), velocity_.data());
     }

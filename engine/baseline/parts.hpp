@@ -30,6 +30,13 @@ struct ClaimsOnSystem {
     std::function<Claims(const System&)> of;
 };
 
+/// The claims on one-forms, whose flow is not canonical in (q, p). Without it they are those on other
+/// systems.
+struct ClaimsOnOneForms {
+    static constexpr PartInfo part{"claims-on-one-forms", "claims that hold for one-forms", false};
+    std::function<Claims(const Settings&)> of;
+};
+
 /// Of fields on meshes: the order in space, which compositions in time do not raise. Without it the order is
 /// that of the step.
 struct OrderInSpace {

@@ -10,7 +10,7 @@
 namespace extremal {
 
 /// The parts that are in that flow.
-inline Takes drivenProblems() { return flowProblems().with<Constraint, Force, Rolling>(); }
+inline Takes drivenProblems() { return firstOrderProblems().with<Constraint, Force, Rolling>(); }
 
 /// The mechanics of a system with that flow; those of the system itself where it has a Lagrangian alone. Its
 /// other calls are of the Lagrangian, and it is not separable.

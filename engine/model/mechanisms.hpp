@@ -2,6 +2,7 @@
 /// The parts of a mechanism: what moves a system with coordinates besides its Lagrangian.
 #pragma once
 
+#include "engine/model/one_form.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
 #include "engine/model/parts/rolling.hpp"
@@ -14,12 +15,12 @@ namespace extremal {
 /// Lagrangians in coordinates, with all of them.
 inline Takes mechanisms() { return Takes::only<Mechanical, Constraint, Force, Rolling, Wall>(); }
 
-/// Any problem of one part alone, Hamiltonians among them: of what looks at tangent maps.
-inline Takes plainProblemsAndHamiltonians() { return plainProblems().with<PhaseMechanics>(); }
+/// Any problem of one part alone, Hamiltonians and one-forms among them: of what looks at tangent maps.
+inline Takes plainProblemsAndHamiltonians() { return plainProblems().with<PhaseMechanics, OneForm>(); }
 
 /// Any problem, and mechanisms: of what looks at energies and momenta of states.
 inline Takes plainProblemsAndMechanisms() {
-    return plainProblems().with<Constraint, Force, Rolling, Wall, PhaseMechanics>();
+    return plainProblems().with<Constraint, Force, Rolling, Wall, PhaseMechanics, OneForm>();
 }
 
 }  // namespace extremal

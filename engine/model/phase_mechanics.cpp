@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/model/one_form.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal {
@@ -83,6 +84,7 @@ const PhaseMechanics* hamiltonianOf(const Mechanics<double>& mechanics) {
 }
 
 Mechanics<double> flowOf(const System& system) {
+    if (const OneForm* const form = system.parts.find<OneForm>()) return flowOf(*form);
     const PhaseMechanics* const hamiltonian = system.parts.find<PhaseMechanics>();
     return hamiltonian ? flowOf(*hamiltonian) : system.mechanics();
 }

@@ -5,11 +5,14 @@
 ///     w(a, b) = zeta_a . mu_b - mu_a . zeta_b + mu . [zeta_a, zeta_b],
 /// so that Om(mu) = [[-[mu]x, 1], [-1, 0]] on SO(3). `mu` is in the body: (Pi, p) on SE(3), where
 /// [(u, v), (u', v')] = (u x u', u x v' - u' x v).
+/// Of a one-form it is its derivative, w(a, b) = -a . Om(x) b (model/one_form.hpp).
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "engine/group/so3.hpp"
+#include "engine/model/one_form.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal {
@@ -17,12 +20,14 @@ namespace extremal {
 class SymplecticForm {
 public:
     explicit SymplecticForm(const System& system) {
+        if (const OneForm* const form = system.parts.find<OneForm>()) oneForm_.emplace(*form);
         if (const Body* const body = system.parts.find<Body>())
             group_ = static_cast<std::size_t>(body->dimension);
     }
 
     /// Of two variations of length n at the state x.
     double operator()(const double* x, const double* a, const double* b, std::size_t n) const {
+        if (oneForm_) return ofOneForm(x, a, b);
         const std::size_t half = n / 2;
         double sum = 0;
         for (std::size_t i = 0; i < half; ++i) sum += a[i] * b[half + i] - a[half + i] * b[i];
@@ -43,7 +48,15 @@ private:
         return sum + p.dot(so3::cross(u, part(b + 3)) - so3::cross(other, part(a + 3)));
     }
 
-    std::size_t group_ = 0;  ///< dimension; 0: none
+    /// -a . Om(x) b, which is the form above for theta = p dq.
+    double ofOneForm(const double* x, const double* a, const double* b) const {
+        const Eigen::MatrixXd& form = oneForm_->form(x);
+        const Eigen::Index m = form.rows();
+        return -Eigen::Map<const Eigen::VectorXd>(a, m).dot(form * Eigen::Map<const Eigen::VectorXd>(b, m));
+    }
+
+    mutable std::optional<OneFormEquations> oneForm_;  ///< its buffers
+    std::size_t group_ = 0;                            ///< dimension; 0: none
 };
 
 }  // namespace extremal

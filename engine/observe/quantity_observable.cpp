@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/model/one_form.hpp"
 #include "engine/model/phase_mechanics.hpp"
 
 namespace extremal {
@@ -35,7 +36,7 @@ ObservableEntry variationObservable(CatalogItem item, std::vector<Column> column
     ObservableEntry e;
     e.item = std::move(item);
     e.variations = plan;
-    e.takes = Takes::only<Mechanical, Body, PhaseMechanics>();
+    e.takes = Takes::only<Mechanical, Body, PhaseMechanics, OneForm>();
     e.bind = [columns = std::move(columns), isDefect](const ObserveContext& context) {
         Observer o = observeQuantities(context, columns);
         if (isDefect) o.extreme = 0;

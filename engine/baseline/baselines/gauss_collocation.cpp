@@ -292,6 +292,7 @@ private:
             inverseMass_ = hessian_.diagonal().tail(this->d());
             return;
         }
+        if (!m.jet) return;  // of a one-form: unknown
         if (!m.velocity(m.model.get(), t, this->q0_.data(), this->p0_.data(), dq_.data())) return;
         m.jet(m.model.get(), t, this->q0_.data(), dq_.data(), &value, gradient_.data(), hessian_.data());
         for (int k = 0; k < this->d(); ++k) inverseMass_(k) = 1 / hessian_(this->d() + k, this->d() + k);
@@ -358,7 +359,10 @@ BaselineEntry gauss_collocation() {
     e.parts.set(ClaimsOfKeys{[](const Settings& settings) { return claims(settings.integer("stages")); }});
     e.parts.set(
         BaselineTableau{[](const Settings& settings) { return gaussTableau(settings.integer("stages")); }});
-    e.takes = flowProblems();
+    e.takes = firstOrderProblems();
+    e.parts.set(ClaimsOnOneForms{[](const Settings& settings) {
+        return Claims{2 * settings.integer("stages"), true, false, {}};
+    }});
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<GaussCollocation>(flowOf(system), options.step,
                                                 options.settings.integer("stages"));

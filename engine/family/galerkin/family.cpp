@@ -143,7 +143,7 @@ Properties describeGalerkin(const Discretization& discretization) {
 /// At the step itself: functions that depend on it, and their stability.
 void checkGalerkin(const SchemeCase& scheme, Findings& findings) {
     if (Mechanism::isOne(scheme.system.parts)) return galerkin::checkMechanism(scheme, findings);
-    if (scheme.system.parts.find<PhaseMechanics>()) return galerkin::checkPhase(scheme, findings);
+    if (galerkin::isPhase(scheme.system)) return galerkin::checkPhase(scheme, findings);
     if (galerkin::isSplit(scheme.discretization)) return galerkin::checkSplit(scheme, findings);
     const auto& [space, quadrature, solver] = scheme.discretization;
     if (!dependsOnStep(space)) return;
@@ -211,14 +211,14 @@ Family galerkin() {
         return rules;
     };
     f.written = galerkin::written;
-    f.takes = mechanisms().with<PhaseMechanics>();
+    f.takes = mechanisms().with<PhaseMechanics, OneForm>();
     f.parts.set(SchemeCondition{[](const Discretization& d, const System& system) {
         const std::string problem = galerkin::phaseProblem(d, system);
         return problem.empty() ? galerkin::mechanismProblem(d, system) : problem;
     }});
     f.make = [](const System& system, const Discretization& d, double step) {
         if (Mechanism::isOne(system.parts)) return galerkin::mechanismStep(system, d, step);
-        if (system.parts.find<PhaseMechanics>()) return galerkin::phaseStep(system, d, step);
+        if (galerkin::isPhase(system)) return galerkin::phaseStep(system, d, step);
         if (galerkin::isSplit(d)) {
             const galerkin::Split split = galerkin::splitOf(system, d);
             std::vector<LagrangianTerm<double>> parts =
@@ -238,17 +238,17 @@ Family galerkin() {
         DescribedOnSystem{[](const Discretization& d, const System& system) -> std::optional<Properties> {
             if (Mechanism::isOne(system.parts) && galerkin::mechanismProblem(d, system).empty())
                 return galerkin::describeMechanism(d, system, describeGalerkin);
-            if (const auto* const H = system.parts.find<PhaseMechanics>()) {
+            if (galerkin::isPhase(system)) {
                 if (!galerkin::phaseProblem(d, system).empty()) return {};
-                return galerkin::describePhase(d, *H, describeGalerkin);
+                return galerkin::describePhase(d, system, describeGalerkin);
             }
             if (!galerkin::isSplit(d)) return {};
             return galerkin::describeSplit(d, system);
         }});
     f.parts.set(
         WrittenOnSystem{[](const Discretization&, const System& system) -> std::optional<WrittenAction> {
-            if (!system.parts.find<PhaseMechanics>()) return {};
-            return galerkin::writtenPhase();
+            if (!galerkin::isPhase(system)) return {};
+            return galerkin::writtenPhase(system);
         }});
     f.parts.set(Tables{
         [](const Discretization& d) { return !galerkin::isSplit(d) && !dependsOnStep(d.space); },

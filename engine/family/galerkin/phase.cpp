@@ -6,35 +6,47 @@
 #include "engine/family/galerkin/split.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/integrator/condensed.hpp"
+#include "engine/phase/one_form_step.hpp"
 #include "engine/phase/phase_step.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/space/typed.hpp"
 
 namespace extremal::galerkin {
 
+bool isPhase(const System& system) {
+    return system.parts.find<PhaseMechanics>() || system.parts.find<OneForm>();
+}
+
 std::string phaseProblem(const Discretization& d, const System& system) {
-    if (!system.parts.find<PhaseMechanics>()) return {};
+    if (!isPhase(system)) return {};
     if (isTermRule(d.quadrature) || isSplit(d))
-        return "one space and one rule are needed for a Hamiltonian: rules for terms and spaces for "
+        return "one space and one rule are needed in phase space: rules for terms and spaces for "
                "coordinates are for a Lagrangian";
     if (dependsOnStep(d.space)) return "functions that change with the step are for a Lagrangian";
     return {};
 }
 
-Properties describePhase(const Discretization& d, const PhaseMechanics& mechanics,
+Properties describePhase(const Discretization& d, const System& system,
                          Properties (*describe)(const Discretization&)) {
     Properties p = describe(d);
     // Kicks and drifts in turn are explicit for kinetic and potential energies alone.
-    p.isExplicit = p.isExplicit && mechanics.isSeparable();
+    const auto* const mechanics = system.parts.find<PhaseMechanics>();
+    p.isExplicit = p.isExplicit && mechanics && mechanics->isSeparable();
+    if (const OneForm* const form = system.parts.find<OneForm>()) {
+        p.claims.conserves.clear();
+        p.claims.isSymplectic = form->hasPlane();
+    }
     return p;
 }
 
 std::unique_ptr<Integrator> phaseStep(const System& system, const Discretization& d, double step) {
+    if (const OneForm* const form = system.parts.find<OneForm>())
+        return makeOneFormStep(*form, tableOf(d.space, d.quadrature), step, solverPolicy(d.solver, system));
     return makePhaseStep(system.part<PhaseMechanics>(), tableOf(d.space, d.quadrature), step,
                          solverPolicy(d.solver, system));
 }
 
-WrittenAction writtenPhase() {
+WrittenAction writtenPhase(const System& system) {
     WrittenAction w;
     w.meaning =
         "φ_1, …, φ_m are the functions of the space with φ_a(0) = 0: all but the last vanish at 1 as well, "
@@ -60,11 +72,23 @@ WrittenAction writtenPhase() {
          "\\sum_i b_i \\Bigl( \\varphi_a'(c_i) P_i - h\\, \\varphi_a(c_i) \\frac{\\partial H}{\\partial "
          "q}\\Big|_i \\Bigr) = \\varphi_a(1)\\, p_1, \\qquad p_1 = p_0 - h \\sum_i b_i \\frac{\\partial "
          "H}{\\partial q}\\Big|_i"}};
+    if (const OneForm* const form = system.parts.find<OneForm>(); form && form->hasPlane())
+        w.meaning +=
+            " P_i = P(Q_i, Y_i), and Y_i, which has no velocity, is free at each node; H(q, p) is that of "
+            "(q, Y(q, p)).";
+    else if (form)
+        w.meaning += " The equations Om(x) x' = grad H are those of H(x, p) = p·f(x) with p = 0.";
     return w;
 }
 
 void checkPhase(const SchemeCase& scheme, Findings& findings) {
     const auto& [space, rule, solver] = scheme.discretization;
+    if (const OneForm* const form = scheme.system.parts.find<OneForm>(); form && !form->hasPlane())
+        findings.warning(
+            "/space",
+            "is not symplectic here: no half of the variables is free of the form, so that it is "
+            "collocation on the equations of motion, of the same order",
+            "the form as P(q, y) dq, with as many y as q; symplecticity shows the defect");
     const int degree = space.integer("degree");
     if (space.type != "polynomial" || degree < 2 || rule.type != "lobatto" || rule.integer("panels") > 1 ||
         rule.integer("nodes") != degree)

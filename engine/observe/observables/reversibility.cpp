@@ -3,6 +3,7 @@
 /// round-off where the scheme is symmetric. The run fills the column when it is done.
 #include <cmath>
 
+#include "engine/model/one_form.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/observe/catalog.hpp"
 
@@ -18,7 +19,7 @@ ObservableEntry reversibility() {
               {},
               "a scheme with a fixed step"};
     e.needsWayBack = true;
-    e.takes = Takes::only<Mechanical, Body, PhaseMechanics>();
+    e.takes = Takes::only<Mechanical, Body, PhaseMechanics, OneForm>();
     e.bind = [](const ObserveContext&) {
         Observer o;
         o.columns = {{"reversibility", "|x back − x|", "", {}, {}}};

@@ -3,6 +3,7 @@
 /// far all steps together are, relative to the square of their tangent map. With constraints both are
 /// compared along their manifold. Forces do not keep the form: contraction says what they do.
 #include "engine/model/mechanisms.hpp"
+#include "engine/model/one_form.hpp"
 #include "engine/observe/quantity_observable.hpp"
 
 namespace extremal::observables {
@@ -19,7 +20,8 @@ ObservableEntry symplecticity() {
         {{"symplecticity", "max |MᵀJM − J|", "", {}, {}},
          {"symplecticity_accumulated", "max |PᵀJP − J| / max |P|²", "", {}, {}}},
         {.map = true}, true);
-    e.takes = Takes::only<Mechanical, Body, Wave, ScalarField, Constraint, Wall, PhaseMechanics>();
+    e.takes =
+        Takes::only<Mechanical, Body, Wave, ScalarField, Constraint, Wall, PhaseMechanics, OneForm>();
     return e;
 }
 

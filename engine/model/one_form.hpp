@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A motion in phase space that is given by a one-form and a Hamiltonian:
+///     L = theta(x) . x' - H(x),    Om(x) x' = grad H,    Om_ij = d_i theta_j - d_j theta_i.
+///
+/// m variables x, an even number. Where half of them, y, have no velocity in L (theta_y = 0), L is
+/// P(q, y) . q' - H(q, y) with the others as q: `places` and `free` are the indices of q and y in x, empty
+/// where there is no such half. Arrays: theta[i], slopes d theta_i / dx_k at i m + k, curvatures
+/// d2 theta_i / dx_k dx_l at (i m + k) m + l; of H gradient[k], Hessian at k m + l.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+#include "engine/model/mechanics.hpp"
+#include "engine/model/parts.hpp"
+#include "engine/model/phase_mechanics.hpp"
+
+namespace extremal {
+
+struct OneForm {
+    static constexpr PartInfo part{"one-form", "a one-form on phase space"};
+
+    int variables = 0;                  ///< m
+    std::shared_ptr<const void> model;  ///< first argument of the calls below
+
+    /// Any of the last two may be null.
+    void (*form)(const void*, const double* x, double* theta, double* slopes, double* curvatures) = nullptr;
+    /// Likewise.
+    void (*energy)(const void*, const double* x, double* value, double* gradient, double* hessian) = nullptr;
+
+    std::vector<int> places, free;  ///< q and y
+    bool hasPlane() const { return !places.empty(); }
+};
+
+/// The equations of a one-form at a state, with buffers of their own.
+class OneFormEquations {
+public:
+    explicit OneFormEquations(const OneForm& of);
+
+    /// Om(x), entry (i, j).
+    const Eigen::MatrixXd& form(const double* x);
+    /// x' = Om^{-1} grad H; false where Om is singular.
+    bool rate(const double* x, double* dx);
+    /// d x' / dx, entry (i, k); null where Om is singular.
+    const Eigen::MatrixXd* jacobian(const double* x);
+
+private:
+    OneForm of_;
+    Eigen::VectorXd theta_, gradient_, rate_;
+    std::vector<double> slopes_, curvatures_;
+    Eigen::MatrixXd form_, hessian_, jacobian_;
+};
+
+/// x' behind the calls of methods for first-order equations (engine/baseline): half of the variables in the
+/// place of q, half in that of p, whatever they are. Null: `jet`, `velocity` and `gradient`.
+Mechanics<double> flowOf(const OneForm& of);
+/// Problems with equations of first order that need not be canonical.
+inline Takes firstOrderProblems() { return flowProblems().with<OneForm>(); }
+/// The one-form behind what flowOf() has made; null for others.
+const OneForm* oneFormOf(const Mechanics<double>& mechanics);
+
+/// The Hamiltonian of (q, p), p = P(q, y), of a form with a plane: H(q, Y(q, p)), where Y is found by
+/// Newton's method from the place that this thread has been told last. Not a number where it finds none.
+///
+/// With F = H - P . V stationary in y and V, d H~/dp = V, d H~/dq = F_q, and the Hessian is the Schur
+/// complement of that of F: P_y is inverted, and no formula for Y is needed.
+PhaseMechanics canonicalOf(const OneForm& of);
+/// x' = f(x) as the equations of H = lambda . f(x), which is linear in its momenta lambda: of a form without
+/// a plane. Started with lambda = 0 the momenta stay 0, and are not evaluated.
+PhaseMechanics fieldOf(const OneForm& of);
+/// Where Newton's method begins on this thread, for what canonicalOf() has made: y of a state near by.
+void setGuess(const PhaseMechanics& canonical, const double* y);
+/// Y(q, p); false where it is not found.
+bool freeVariables(const PhaseMechanics& canonical, const double* q, const double* p, double* y);
+
+}  // namespace extremal

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// One-forms on phase space: exactly symplectic steps of order 2s where half of the variables is free of the
+/// form, and what collocation on the equations of motion makes of the same motion (design page "phase space",
+/// laws PS2 and PS3).
+#include <QTest>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/model/one_form.hpp"
+#include "tests/laws/laws.hpp"
+#include "tests/tools/tangent.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::one_form_step_test {
+namespace {
+
+struct Motion {
+    System system;
+    State start;
+};
+
+System typedForm(Value::Array names, Value::Object form, const char* hamiltonian) {
+    return laws::systemNamed("phase-space", {{"variables", Value(std::move(names))},
+                                             {"parameters", Value(Value::Object{})},
+                                             {"one_form", Value(std::move(form))},
+                                             {"hamiltonian", hamiltonian}});
+}
+
+/// A charge without mass in a magnetic field that grows with the distance: theta = (1 + r^2)/2 (-y dx + x
+/// dy), and the same with d chi taken off, so that y has no velocity.
+Motion massless(bool hasPlane) {
+    const State start{0, 0, {0.6, 0.4}};
+    if (hasPlane) return {typedForm({"x", "y"}, {{"x", "-y - 2*x^2*y - 2/3*y^3"}}, "cos(x) + sin(y)"), start};
+    return {typedForm({"x", "y"}, {{"x", "-(1+x^2+y^2)/2*y"}, {"y", "(1+x^2+y^2)/2*x"}}, "cos(x) + sin(y)"),
+            start};
+}
+
+/// Henon and Heiles in variables y with p = P(q, y).
+Motion henonHeiles() {
+    const std::string P1 = "(y1*(1+.8*q2) + y2^3/2)", P2 = "(y2*(1+.6*q1) + .4*y1^2)";
+    return {typedForm({"q1", "q2", "y1", "y2"}, {{"q1", P1.c_str()}, {"q2", P2.c_str()}},
+                      ("(" + P1 + "^2 + " + P2 + "^2)/2 + (q1^2+q2^2)/2 + q1^2*q2 - q2^3/3").c_str()),
+            {0, 0, {0.05, -0.2, 0.3, 0.15}}};
+}
+
+Discretization gaussPair(int s, int nodes) {
+    return laws::polynomialPair(s, {"gauss", {{"nodes", static_cast<double>(nodes)}}, {}});
+}
+
+std::unique_ptr<Integrator> cell(const Motion& of, int s, double h) {
+    return makeIntegrator(of.system, gaussPair(s, s), {0, h});
+}
+std::unique_ptr<Integrator> onEquations(const Motion& of, int s, double h) {
+    return findBaseline("gauss-collocation")
+        ->make(of.system, {h, of.start, 0, {"gauss-collocation", {{"stages", static_cast<double>(s)}}, {}}});
+}
+
+State ending(const Motion& of, Integrator& integrator, int steps) {
+    const auto found = laws::after(integrator, of.start, steps);
+    if (!found) qFatal("a step failed");
+    return *found;
+}
+double largest(const State& a, const State& b) {
+    double worst = 0;
+    for (std::size_t i = 0; i < a.x.size(); ++i) worst = std::max(worst, std::abs(a.x[i] - b.x[i]));
+    return worst;
+}
+
+State byRungeKutta(const Motion& of, double end) {
+    const auto integrator = findBaseline("fehlberg78")->make(of.system, {0, of.start, 1e-14, {}});
+    State s = of.start;
+    while (s.t < end)
+        if (integrator->advance(s, end).outcome != Outcome::converged) qFatal("no reference");
+    return s;
+}
+
+/// max |M^T Om_1 M - Om_0| of the first steps.
+double defect(const Motion& of, Integrator& integrator, int steps) {
+    double worst = 0;
+    State s = of.start;
+    for (int k = 0; k < steps; ++k) {
+        const State before = s;
+        if (advance(integrator, s).outcome != Outcome::converged) qFatal("a step failed");
+        const auto M = tangentMap(integrator);
+        if (!M) qFatal("no tangent map");
+        worst = std::max(worst, formDefect(SymplecticForm(of.system), before.x.data(), s.x.data(), *M));
+    }
+    return worst;
+}
+
+/// Mean energy errors of the first and of the last tenth of a run.
+std::pair<double, double> tenths(const Motion& of, Integrator& integrator, int steps) {
+    const EnergyFunction energy = energyOf(of.system);
+    const double start = energy(0, of.start.x.data());
+    State s = of.start;
+    std::pair<double, double> means{0, 0};
+    for (int k = 0; k < steps; ++k) {
+        if (advance(integrator, s).outcome != Outcome::converged) qFatal("a step failed");
+        const double error = (energy(0, s.x.data()) - start) / (steps / 10);
+        if (k < steps / 10) means.first += error;
+        if (k >= steps - steps / 10) means.second += error;
+    }
+    return means;
+}
+
+}  // namespace
+
+class OneFormStepTest : public QObject {
+    Q_OBJECT
+private slots:
+    void orders_data() {
+        QTest::addColumn<bool>("hasPlane");
+        QTest::addColumn<int>("degree");
+        QTest::addColumn<int>("nodes");
+        for (int s = 1; s <= 3; ++s) {
+            QTest::addRow("free of the form, G(%d) of %d", s, s) << true << s << s;
+            QTest::addRow("free of the form, G(%d) of %d", s + 1, s) << true << s << s + 1;
+            QTest::addRow("on the equations, G(%d)", s) << false << s << s;
+        }
+    }
+    void orders() {
+        QFETCH(bool, hasPlane);
+        QFETCH(int, degree);
+        QFETCH(int, nodes);
+        const Motion of = massless(hasPlane);
+        const State reference = byRungeKutta(of, 4);
+        const int steps = 32;
+        const Discretization d = gaussPair(degree, nodes);
+        const auto errorWith = [&](int n) {
+            const auto integrator = makeIntegrator(of.system, d, {0, 4.0 / n});
+            return largest(ending(of, *integrator, n), reference);
+        };
+        const double fine = errorWith(2 * steps), order = std::log2(errorWith(steps) / fine);
+        qInfo("error %.1e, order %.2f", fine, order);
+        QVERIFY(std::abs(order - 2 * degree) < 0.25);
+        QCOMPARE(describe(d, of.system).claims.isSymplectic, hasPlane);
+    }
+    /// The same form but for d chi.
+    void theFormIsKeptWhereHalfIsFreeOfIt() {
+        for (int s = 1; s <= 3; ++s) {
+            const Motion free = massless(true), whole = massless(false);
+            const double kept = defect(free, *cell(free, s, 0.2), 20),
+                         lost = defect(whole, *cell(whole, s, 0.2), 20),
+                         alsoLost = defect(whole, *onEquations(whole, s, 0.2), 20);
+            qInfo("s = %d: %.0e, on the equations %.1e", s, kept, lost);
+            QVERIFY(kept <= 1e-13);
+            QVERIFY(lost > (s == 1 ? 1e-5 : s == 2 ? 1e-9 : 1e-13));
+            QVERIFY(std::abs(alsoLost - lost) <= 1e-3 * lost + 1e-14);  // two ways to one scheme
+        }
+    }
+    void energyDriftsOnTheEquationsAlone() {
+        const Motion of = henonHeiles();
+        const int steps = 100000;
+        const auto kept = tenths(of, *cell(of, 2, 0.2), steps),
+                   lost = tenths(of, *onEquations(of, 2, 0.2), steps);
+        qInfo("%.2e to %.2e; on the equations %.1e to %.1e", kept.first, kept.second, lost.first,
+              lost.second);
+        QVERIFY(std::abs(kept.second - kept.first) <= 0.01 * std::abs(kept.first));
+        QVERIFY(std::abs(lost.second) > 10 * std::abs(lost.first));
+    }
+    /// In (q, p = P(q, y)) it is the Hamiltonian's own cell.
+    void itIsTheCellInCanonicalVariables() {
+        const Motion of = henonHeiles();
+        const Motion canonical{laws::systemNamed("henon-heiles"), {}};
+        for (int s = 1; s <= 3; ++s) {
+            const State there = ending(of, *cell(of, s, 0.2), 50);
+            const auto momenta = [](const std::vector<double>& x) {
+                return std::vector{x[0], x[1], x[2] * (1 + .8 * x[1]) + x[3] * x[3] * x[3] / 2,
+                                   x[3] * (1 + .6 * x[0]) + .4 * x[2] * x[2]};
+            };
+            Motion start{canonical.system, {0, 0, momenta(of.start.x)}};
+            const State here = ending(start, *cell(start, s, 0.2), 50);
+            QVERIFY(largest({0, 0, momenta(there.x)}, here) < 1e-13);
+        }
+    }
+    void tangentMapsAreThoseOfDifferences() {
+        for (const Motion& of : {massless(true), massless(false), henonHeiles()}) {
+            const auto integrator = cell(of, 2, 0.2);
+            State s = of.start;
+            QVERIFY(advance(*integrator, s).outcome == Outcome::converged);
+            const Eigen::MatrixXd M = *tangentMap(*integrator);
+            const auto step = [&](const State& from) { return laws::after(*cell(of, 2, 0.2), from, 1); };
+            const auto differences = differencedMap(of.system, step, of.start, of.start.x.size(), 3e-3);
+            QVERIFY((M - *differences).cwiseAbs().maxCoeff() < 1e-10);
+        }
+    }
+    /// A guiding centre in a tokamak: 2000 steps of the banana orbit.
+    void guidingCentre() {
+        const char* const R = "(1+r*cos(th))";
+        const std::string S = "sqrt(1+r^2/4)", x = "(r*cos(th))";
+        std::string series = "1/2";
+        for (int k = 1; k <= 10; ++k)
+            series += (k % 2 == 1 ? "-" : "+") + x + "^" + std::to_string(k) + "/" + std::to_string(k + 2);
+        const Motion of{typedForm({"r", "th", "zeta", "u"},
+                                  {{"th", ("r^2*(" + series + ") + u*r^2/(2*" + S + ")").c_str()},
+                                   {"zeta", ("-r^2/4 + u*" + std::string(R) + "/" + S).c_str()}},
+                                  ("u^2/2 + 2.25e-6*" + S + "/" + R).c_str()),
+                        {0, 0, {0.05, 0, 0, 4.306e-4}}};
+        QCOMPARE(of.system.momenta.size(), std::size_t(1));  // of zeta
+        const EnergyFunction energy = energyOf(of.system);
+        const double H = energy(0, of.start.x.data()),
+                     P = of.system.momenta[0].value(of.start.x.data(), nullptr);
+        for (int s = 1; s <= 3; ++s) {
+            const auto integrator = cell(of, s, 1000);
+            State state = of.start;
+            double worstH = 0, worstP = 0;
+            for (int k = 0; k < 2000; ++k) {
+                QVERIFY(advance(*integrator, state).outcome == Outcome::converged);
+                worstH = std::max(worstH, std::abs(energy(0, state.x.data()) / H - 1));
+                worstP = std::max(worstP, std::abs(of.system.momenta[0].value(state.x.data(), nullptr) - P));
+            }
+            qInfo("s = %d: dH/H %.1e, P_zeta %.0e", s, worstH, worstP);
+            QVERIFY(worstH <= (s == 1 ? 5e-5 : s == 2 ? 1e-7 : 3e-10));
+            QVERIFY(worstP <= 1e-15);
+        }
+    }
+    void messages() {
+        const auto messageOf = [](Value::Array names, Value::Object form) -> std::string {
+            try {
+                const System system = typedForm(std::move(names), std::move(form), "x^2 + y^2");
+                findModel("phase-space")->checkInitial({}, system, {0, 0, {1, 1}});
+            } catch (const InvalidScene& e) {
+                return e.problems().front().pointer + ": " + e.problems().front().message;
+            }
+            return {};
+        };
+        QVERIFY(messageOf({"x", "y", "z"}, {{"x", "y"}}).find("even number") != std::string::npos);
+        QVERIFY(messageOf({"x", "y"}, {{"x", "x^2"}}).find("move together") != std::string::npos);
+        QVERIFY(messageOf({"x", "y"}, {{"z", "x"}}).starts_with("/one_form/z"));
+        QCOMPARE(messageOf({"x", "y"}, {{"x", "y"}}), std::string());
+    }
+};
+
+EXTREMAL_TEST(OneFormStepTest)
+}  // namespace extremal::one_form_step_test
+
+#include "one_form_step_test.moc"
