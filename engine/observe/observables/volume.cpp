@@ -17,7 +17,8 @@ ObservableEntry volume() {
                              {},
                              "a scheme with a tangent map"},
                             {{"volume", "det M − 1", "", {}, {}}}, {.map = true}, true);
-    e.takes = Takes::only<Mechanical, Body, Constraint>();
+    // The variables of a one-form are not canonical, and their volume is not kept by the flow either.
+    e.takes = Takes::only<Mechanical, Body, Constraint, PhaseMechanics>();
     return e;
 }
 
