@@ -232,7 +232,7 @@ private slots:
         const Comparison c =
             runScene(R"json({"extremal":1,"model":{"type":"lagrangian","coordinates":["x","y"],
             "parameters":{},"lagrangian":"(x_t^2+y_t^2)/2 - y","walls":{"floor":{"gap":"y+x/4","restitution":0.9}}},
-            "initial":{"q":[0,1],"v":[0.3,0]},"time":{"end":4},
+            "initial":{"q":[0,1],"v":[0.3,0]},"time":{"end":8},
             "schemes":[{"scheme":"galerkin-gauss-2","step":0.1}],"observe":["momentum-balance"]})json");
         double worst = 0;
         for (const double value : c.schemes.front()->trajectory["momentum_balance"])
