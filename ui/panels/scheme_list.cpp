@@ -56,6 +56,8 @@ SchemeList::SchemeList(Workspace& workspace, RunControl& run, const Theme& theme
     connect(&run_, &RunControl::resultsChanged, this, &SchemeList::showResults);
 }
 
+void SchemeList::addFoot(QWidget* foot) { layout()->addWidget(foot); }
+
 void SchemeList::mousePressEvent(QMouseEvent*) { workspace_.selectScheme(-1); }
 
 void SchemeList::fillAddMenu() {

@@ -25,6 +25,8 @@ public:
     SchemeList(Workspace& workspace, RunControl& run, const Theme& theme, QWidget* parent = nullptr);
     void setTheme(const Theme& theme);
     SchemeCard* card(int index) const;
+    /// Below the schemes, where it stays in sight while they scroll.
+    void addFoot(QWidget* foot);
 
     void openAddMenu();
     /// Gives a row the focus, and so selects it.

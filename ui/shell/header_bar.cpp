@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QSignalBlocker>
 
 #include <cmath>
 
@@ -12,6 +13,7 @@
 #include "ui/base/seek_slider.hpp"
 #include "ui/study/background_sweep.hpp"
 #include "ui/workspace/run_control.hpp"
+#include "ui/workspace/wanted.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
@@ -26,8 +28,9 @@ QPushButton* button(const QString& text, const QString& tip, QWidget* parent) {
 
 }  // namespace
 
-HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSweep& sweep, QWidget* parent)
-    : QWidget(parent), workspace_(workspace), run_(run), sweep_(sweep) {
+HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSweep& sweep, Wanted& wanted,
+                     QWidget* parent)
+    : QWidget(parent), workspace_(workspace), run_(run), sweep_(sweep), error_(wanted) {
     setProperty("ground", "panel");
     setAttribute(Qt::WA_StyledBackground);
     auto* row = new QHBoxLayout(this);
@@ -47,9 +50,10 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSwee
     connect(&workspace_, &Workspace::fileChanged, this, &HeaderBar::showScene);
     connect(&run_, &RunControl::stateChanged, this, &HeaderBar::showState);
     connect(&run_, &RunControl::resultsChanged, this, &HeaderBar::showChoice);
+    connect(&error_, &Wanted::changed, this, &HeaderBar::showWanted);
     showScene();
     showState();
-    showChoice();
+    showWanted();
 }
 
 /// The wanted error, and the scheme that would be chosen for it.
@@ -57,7 +61,6 @@ void HeaderBar::makeWanted(QHBoxLayout& row) {
     auto* label = makeLabel(tr("wanted error"), "caption", this);
     wanted_ = new SeekSlider(Qt::Horizontal, this);
     wanted_->setRange(-14, 0);
-    wanted_->setValue(-6);
     wanted_->setMinimumWidth(70);
     wanted_->setMaximumWidth(190);
     wanted_->setAccessibleName(tr("Wanted error"));
@@ -72,10 +75,8 @@ void HeaderBar::makeWanted(QHBoxLayout& row) {
     row.addWidget(wanted_, 1);
     row.addWidget(choice_, 3);
     row.addWidget(use_);
-    connect(wanted_, &QSlider::valueChanged, this, [this] {
-        showChoice();
-        emit wantedChanged(wantedError());
-    });
+    connect(wanted_, &QSlider::valueChanged, this,
+            [this](int power) { error_.setError(std::pow(10.0, power)); });
 }
 
 void HeaderBar::makeButtons(QHBoxLayout& row) {
@@ -126,10 +127,11 @@ void HeaderBar::setSceneInSight(bool isInSight) {
     showState();
 }
 
-double HeaderBar::wantedError() const { return std::pow(10.0, wanted_->value()); }
-
-void HeaderBar::setWantedError(double error) {
-    if (error > 0) wanted_->setValue(static_cast<int>(std::lround(std::log10(error))));
+/// The slider stands at the next power of ten; the number is exact.
+void HeaderBar::showWanted() {
+    const QSignalBlocker blocker(wanted_);
+    wanted_->setValue(static_cast<int>(std::lround(std::log10(error_.error()))));
+    showChoice();
 }
 
 void HeaderBar::showChoice() {
@@ -153,7 +155,7 @@ void HeaderBar::showChoice() {
                 all.push_back(std::move(other));
             }
     }
-    const double wanted = wantedError();
+    const double wanted = error_.error();
     // What the scene has is proposed where another step would not save a tenth.
     const auto price = [](const Candidate& c) { return (c.isOfScene ? 0.9 : 1) * c.seconds; };
     const Candidate *cheapest = nullptr, *nearest = nullptr;
@@ -161,7 +163,7 @@ void HeaderBar::showChoice() {
         if (c.error <= wanted && (!cheapest || price(c) < price(*cheapest))) cheapest = &c;
         if (!nearest || c.error < nearest->error) nearest = &c;
     }
-    QString text = QStringLiteral("1e%1").arg(wanted_->value());
+    QString text = shortNumber(wanted, 2);
     if (cheapest)
         text += QStringLiteral("  →  %1, %2, %3")
                     .arg(QString::fromStdString(cheapest->spec.label), stepText(cheapest->spec),

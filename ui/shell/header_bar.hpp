@@ -17,15 +17,14 @@ namespace extremal {
 class BackgroundSweep;
 class Playback;
 class RunControl;
+class Wanted;
 class Workspace;
 
 class HeaderBar : public QWidget {
     Q_OBJECT
 public:
-    HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSweep& sweep, QWidget* parent = nullptr);
-    double wantedError() const;
-    /// To a power of ten.
-    void setWantedError(double error);
+    HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSweep& sweep, Wanted& wanted,
+              QWidget* parent = nullptr);
     /// While the scene is not in sight, nothing here acts on it.
     void setSceneInSight(bool isInSight);
 
@@ -35,7 +34,6 @@ signals:
     void stepRequested();
     void exportRequested();
     void paletteRequested();
-    void wantedChanged(double error);
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -45,12 +43,14 @@ private:
     void makeButtons(QHBoxLayout& row);
     void showScene();
     void showState();
+    void showWanted();
     void showChoice();
     void useChoice();
 
     Workspace& workspace_;
     RunControl& run_;
     const BackgroundSweep& sweep_;
+    Wanted& error_;
     QLabel *title_, *file_, *choice_;
     std::vector<QPushButton*> secondary_;  ///< which a narrow window does without
     QSlider* wanted_;

@@ -36,6 +36,7 @@
 #include "ui/shell/theme_switch.hpp"
 #include "ui/shell/timeline.hpp"
 #include "ui/sketch/mechanism_sketch.hpp"
+#include "ui/study/needs_card.hpp"
 #include "ui/study/study_page.hpp"
 #include "ui/text/text_view.hpp"
 #include "ui/windows/copies_window.hpp"
@@ -46,6 +47,7 @@
 #include "ui/workspace/playback.hpp"
 #include "ui/workspace/run_control.hpp"
 #include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/wanted.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
@@ -60,6 +62,7 @@ MainWindow::MainWindow(const Theme& theme, bool isRemembered) : theme_(theme), i
     workspace_ = new Workspace(*notices_, this);
     run_ = new RunControl(*workspace_, *notices_, this);
     playback_ = new Playback(this);
+    wanted_ = new Wanted(this);
     actions_ = new Actions(*this);
     makePages();
     makeActions();
@@ -166,6 +169,7 @@ void MainWindow::setTheme(const Theme& theme) {
     parts.emplace_back([this] { schemes_->setTheme(theme_); });
     for (auto& part : compare_->partsOfTheme(theme_)) parts.push_back(std::move(part));
     parts.emplace_back([this] { studies_->setTheme(theme_); });
+    parts.emplace_back([this] { needs_->setTheme(theme_); });
     parts.emplace_back([this] { startPage_->setTheme(theme_); });
     parts.emplace_back([this] {
         if (inspector_) inspector_->setTheme(theme_);

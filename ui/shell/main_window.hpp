@@ -36,6 +36,7 @@ class HelpWindow;
 class InspectorWindow;
 class LessonBar;
 class LogWindow;
+class NeedsCard;
 class Notices;
 class OwnList;
 class OwnWindow;
@@ -51,6 +52,7 @@ class ThemeSwitch;
 class TextView;
 class Timeline;
 class ValuesTable;
+class Wanted;
 class Workspace;
 
 class MainWindow : public QMainWindow {
@@ -78,6 +80,8 @@ public:
     Discretizer& discretizer() { return *discretizer_; }
     Notices& notices() { return *notices_; }
     StudyPage& studies() { return *studies_; }
+    NeedsCard& needs() { return *needs_; }
+    Wanted& wanted() { return *wanted_; }
     ThemeSwitch& themeSwitch() { return *themeSwitch_; }
 
 public slots:
@@ -102,6 +106,7 @@ private:
     void makeTabPages(BackgroundSweep& sweep);
     void tellOfPlots();
     void tellOfStudies();
+    void tellOfNeeds();
     void makeStartPage();
     void makeStatus();
     void makeActions();
@@ -165,6 +170,7 @@ private:
     Workspace* workspace_;
     RunControl* run_;
     Playback* playback_;
+    Wanted* wanted_;
     Autosave* autosave_ = nullptr;
     Actions* actions_;
     CompareView* compare_;
@@ -174,6 +180,7 @@ private:
     HeaderBar* header_;
     StartPage* startPage_;
     StudyPage* studies_;
+    NeedsCard* needs_;
     Timeline* timeline_;
     ValuesTable* values_;
     HelpWindow* help_ = nullptr;

@@ -31,6 +31,7 @@
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/start_page.hpp"
 #include "ui/stage/stage_widget.hpp"
+#include "ui/study/needs_card.hpp"
 #include "ui/study/study_page.hpp"
 #include "ui/windows/about.hpp"
 #include "ui/windows/copies_window.hpp"
@@ -364,6 +365,7 @@ void MainWindow::addRunActions() {
     actions_->addSeparator(menu);
     actions_->add("restart", menu, tr("Compute again"), {QKeySequence(Qt::Key_R)}, [this] { run_->start(); });
     actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)}, [this] {
+        if (needs_->stop()) return;
         if (studies_->isVisible() && studies_->stop()) return;
         if (compare_->restore()) return;
         if (!run_->isRunning()) workspace_->selectScheme(-1);
@@ -411,9 +413,16 @@ void MainWindow::addStudyActions() {
                   {QKeySequence(Qt::CTRL | Qt::Key_M)}, onPage(&StudyPage::measureCheapest),
                   tr("Runs every scheme that is on at the step that the wanted error needs"));
     actions_->add(
+        "needs", menu, tr("What the scene needs"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_M)},
+        [this] {
+            if (schemes_->isHidden()) actions_->find("schemesPanel")->trigger();
+            needs_->measure();
+        },
+        tr("For each error the cheapest model and scheme: what may be left out, and what it saves"));
+    actions_->add(
         "race", menu, tr("Race"), {QKeySequence(Qt::Key_F9)},
         [this] {
-            if (!race_) race_ = new RaceWindow(*run_, theme_, this);
+            if (!race_) race_ = new RaceWindow(*run_, *wanted_, theme_, this);
             race_->open();
         },
         tr("A stage for each scheme, all with the same processor time; the wanted error is the finish line"));

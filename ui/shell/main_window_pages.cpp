@@ -9,6 +9,8 @@
 #include <QTabBar>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 #include "ui/base/card.hpp"
 #include "ui/base/notices.hpp"
 #include "ui/compare/compare_view.hpp"
@@ -24,15 +26,16 @@
 #include "ui/shell/start_page.hpp"
 #include "ui/shell/timeline.hpp"
 #include "ui/study/background_sweep.hpp"
+#include "ui/study/needs_card.hpp"
 #include "ui/study/study_page.hpp"
 #include "ui/text/text_view.hpp"
 #include "ui/workspace/autosave.hpp"
 #include "ui/workspace/playback.hpp"
 #include "ui/workspace/run_control.hpp"
+#include "ui/workspace/wanted.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
-
 void MainWindow::makePages() {
     auto* whole = new QWidget;
     auto* column = new QVBoxLayout(whole);
@@ -61,7 +64,7 @@ void MainWindow::makePages() {
 }
 
 void MainWindow::makeHeader(BackgroundSweep& sweep) {
-    header_ = new HeaderBar(*workspace_, *run_, sweep);
+    header_ = new HeaderBar(*workspace_, *run_, sweep, *wanted_);
     connect(header_, &HeaderBar::runRequested, run_, &RunControl::start);
     connect(header_, &HeaderBar::stopRequested, run_, &RunControl::stop);
     connect(header_, &HeaderBar::stepRequested, this, [this] { playback_->stepBy(1, rowStep()); });
@@ -74,6 +77,9 @@ QWidget* MainWindow::makeWorkPage(BackgroundSweep& sweep) {
     QWidget* const centre = makeCentre(sweep);
     schemes_ = new SchemeList(*workspace_, *run_, theme_);
     connect(schemes_, &SchemeList::catalogueRequested, this, [this] { ownList().open(); });
+    needs_ = new NeedsCard(*workspace_, *wanted_, theme_);
+    needs_->setProperty("help", "studies");
+    schemes_->addFoot(needs_);
     splitter_ = new QSplitter;
     splitter_->setChildrenCollapsible(false);
     splitter_->setHandleWidth(12);
@@ -81,6 +87,7 @@ QWidget* MainWindow::makeWorkPage(BackgroundSweep& sweep) {
     splitter_->addWidget(centre);
     splitter_->addWidget(schemes_);
     splitter_->setStretchFactor(1, 1);
+    tellOfNeeds();
     auto* work = new QWidget;
     auto* row = new QVBoxLayout(work);
     row->setContentsMargins(12, 12, 12, 4);
@@ -140,13 +147,13 @@ QWidget* MainWindow::makeCentre(BackgroundSweep& sweep) {
 void MainWindow::makeTabPages(BackgroundSweep& sweep) {
     compare_ = new CompareView(*workspace_, *run_, *playback_, theme_);
     compare_->setSweep(sweep);
-    compare_->setWanted(header_->wantedError());
-    connect(header_, &HeaderBar::wantedChanged, compare_, &CompareView::setWanted);
-    connect(compare_, &CompareView::wantedMoved, header_, &HeaderBar::setWantedError);
+    compare_->setWanted(wanted_->error());
+    connect(wanted_, &Wanted::changed, compare_, &CompareView::setWanted);
+    connect(compare_, &CompareView::wantedMoved, wanted_, &Wanted::setError);
     notes_ = new TextView;
     notes_->setObjectName("notes");
     notes_->setAccessibleName(tr("Notes"));
-    studies_ = new StudyPage(*workspace_, theme_);
+    studies_ = new StudyPage(*workspace_, *wanted_, theme_);
     pages_ = new QStackedWidget;
     for (QWidget* page :
          {static_cast<QWidget*>(compare_), static_cast<QWidget*>(notes_), static_cast<QWidget*>(studies_)})
@@ -201,6 +208,20 @@ void MainWindow::tellOfStudies() {
         tell(tr("Loaded from the study: %1.").arg(text), tr("Studies"), 2);
     });
     connect(studies_, &StudyPage::problemFound, this, [this](const QString& text, const QString& hint) {
+        notices_->post({Notice::Kind::error, "studyProblem", text, hint, {}});
+    });
+}
+
+/// What has come from the stair of needs into the scene.
+void MainWindow::tellOfNeeds() {
+    connect(needs_, &NeedsCard::used, this, [this](const QString& what) {
+        notices_->post({Notice::Kind::information,
+                        "study",
+                        tr("In the scene now: %1.").arg(what),
+                        tr("Ctrl+Z undoes this"),
+                        {{tr("Undo"), [this] { workspace_->undo(); }}}});
+    });
+    connect(needs_, &NeedsCard::problemFound, this, [this](const QString& text, const QString& hint) {
         notices_->post({Notice::Kind::error, "studyProblem", text, hint, {}});
     });
 }

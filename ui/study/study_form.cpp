@@ -12,8 +12,10 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/study/catalog.hpp"
+#include "engine/study/request.hpp"
 #include "ui/base/combo_box.hpp"
 #include "ui/study/varied_number_edit.hpp"
+#include "ui/study/wishes_edit.hpp"
 
 namespace extremal {
 
@@ -44,6 +46,9 @@ StudyForm::StudyForm(QWidget* parent) : Card(tr("Study"), parent) {
         row->addWidget(each);
     row->addStretch(1);
     body()->addLayout(row);
+    wishes_ = new WishesEdit;
+    body()->addWidget(wishes_);
+    connect(wishes_, &WishesEdit::changed, this, &StudyForm::wishesChanged);
     auto* numbers = new QGridLayout;
     numbers->setHorizontalSpacing(6);
     numbers->setVerticalSpacing(4);
@@ -84,6 +89,7 @@ void StudyForm::showOptions() {
                            entry.over == Over::wishes || entry.over == Over::usableSteps;
     for (QWidget* each : std::initializer_list<QWidget*>{metricLabel_, metric_, isAtEnd_})
         each->setVisible(hasMetric);
+    wishes_->setVisible(entry.over == Over::wantedError);
     findsLimits_->setVisible(entry.over == Over::numbers);
     x_->setVisible(entry.over == Over::numbers);
     y_->setVisible(entry.over == Over::numbers);
@@ -132,6 +138,7 @@ Study StudyForm::study(const ResolvedScene& resolved, double wantedError) const 
     if (metric_->currentText().isEmpty())
         throw InvalidScene("", "the system has nothing that this study measures",
                            "a reference in the scene, or another study");
+    if (over == Over::wantedError) return cheapest(resolved, wantedError);
     if (over == Over::usableSteps) {
         LimitsOptions options;
         options.wishes = {{metric_->currentText().toStdString(), wantedError}};
@@ -141,12 +148,28 @@ Study StudyForm::study(const ResolvedScene& resolved, double wantedError) const 
     SweepOptions options;
     options.metric = metric_->currentText().toStdString();
     options.isAtEnd = isAtEnd_->isChecked();
-    if (over == Over::wantedError) options.wantedError = wantedError;
     if (over == Over::wishes) {
         options.rungs = usualRungs();
         options.hasAllCandidates = true;
     }
     return Sweep(resolved, options);
+}
+
+/// As the command line has it: the wanted error and the wishes beside it.
+Study StudyForm::cheapest(const ResolvedScene& resolved, double wantedError) const {
+    StudyRequest request;
+    request.kind = chosen().item.id;
+    request.wishes = wishes_->wishes();
+    request.isFinal = isAtEnd_->isChecked();
+    if (!wishes_->areAlone()) {
+        request.metric = metric_->currentText().toStdString();
+        request.error = wantedError;
+    }
+    return makeStudy(chosen(), request, &resolved, 0);
+}
+
+bool StudyForm::checkWishes(const ResolvedScene& resolved) {
+    return chosen().over != StudyEntry::Over::wantedError || wishes_->check(resolved);
 }
 
 void StudyForm::showState(const StudyJob& job, const QString& text) {

@@ -15,6 +15,7 @@ namespace extremal {
 
 struct StudyEntry;
 class VariedNumberEdit;
+class WishesEdit;
 
 class StudyForm : public Card {
     Q_OBJECT
@@ -29,19 +30,24 @@ public:
     /// The study as it is chosen. Throws InvalidScene where the options do not fit the scene.
     Study study(const ResolvedScene& resolved, double wantedError) const;
     void showState(const StudyJob& job, const QString& text);
+    /// Whether all wishes can be measured in the scene; what is wrong with one stands below their field.
+    bool checkWishes(const ResolvedScene& resolved);
 
 signals:
     void runRequested();
     void chosenChanged();
+    void wishesChanged();
 
 private:
     void showOptions();
     void offerMetrics(const ResolvedScene& resolved);
+    Study cheapest(const ResolvedScene& resolved, double wantedError) const;
 
     QComboBox *kind_, *metric_;
     QLabel *metricLabel_, *state_;
     QCheckBox *isAtEnd_, *findsLimits_;
     VariedNumberEdit *x_, *y_;
+    WishesEdit* wishes_;
     QPushButton* run_;
     QProgressBar* progress_;
 };

@@ -25,6 +25,7 @@
 #include "ui/study/study_edits.hpp"
 #include "ui/study/study_form.hpp"
 #include "ui/study/wanted_error.hpp"
+#include "ui/workspace/wanted.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
@@ -60,14 +61,21 @@ QString textOf(double step, double tolerance) {
 
 }  // namespace
 
-StudyPage::StudyPage(Workspace& workspace, const Theme& theme, QWidget* parent)
-    : QWidget(parent), workspace_(workspace), job_(new StudyJob(this)), form_(new StudyForm) {
+StudyPage::StudyPage(Workspace& workspace, Wanted& wanted, const Theme& theme, QWidget* parent)
+    : QWidget(parent),
+      workspace_(workspace),
+      wanted_(wanted),
+      job_(new StudyJob(this)),
+      form_(new StudyForm) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(8);
     column->addWidget(form_);
     makeResults(theme);
     connect(form_, &StudyForm::chosenChanged, this, &StudyPage::showKind);
+    connect(form_, &StudyForm::wishesChanged, this, [this] {
+        if (workspace_.hasScene()) form_->checkWishes(*workspace_.resolved());
+    });
     connect(form_, &StudyForm::runRequested, this, [this] {
         if (!stop()) start();
     });
@@ -131,10 +139,10 @@ void StudyPage::makeTable() {
                tr("Puts the run of the selected row into the scene and shows it in Compare (Ctrl+Shift+U)"));
     use_ = button(tr("Use it"), "useStudy",
                   tr("Puts the scheme of the selected row, with its step, into the scene (Ctrl+U)"));
-    wanted_ = new WantedError;
+    wantedEdit_ = new WantedError(wanted_);
     answer_ = makeElidedLabel({}, "strong");
     answer_->setObjectName("studyAnswer");
-    tableCard_->body()->addWidget(wanted_);
+    tableCard_->body()->addWidget(wantedEdit_);
     tableCard_->body()->addWidget(answer_);
     table_ = new QTableWidget;
     table_->setAccessibleName(tr("Results of the study"));
@@ -155,12 +163,12 @@ void StudyPage::connectResults() {
     connect(load_, &QPushButton::clicked, this, &StudyPage::loadSelected);
     connect(table_, &QTableWidget::itemActivated, this, &StudyPage::useSelected);
     connect(table_, &QTableWidget::itemSelectionChanged, this, &StudyPage::showSelection);
-    connect(wanted_, &WantedError::changed, this, &StudyPage::showWanted);
-    connect(wanted_, &WantedError::refused, this, [this](const QString& text) {
+    connect(&wanted_, &Wanted::changed, this, &StudyPage::showWanted);
+    connect(wantedEdit_, &WantedError::refused, this, [this](const QString& text) {
         emit problemFound(tr("The wanted error must be a number above 0, got \"%1\"").arg(text),
                           tr("for example 1e-6"));
     });
-    connect(plot_, &PlotWidget::levelMoved, wanted_, &WantedError::setValue);
+    connect(plot_, &PlotWidget::levelMoved, &wanted_, &Wanted::setError);
     connect(plot_, &PlotWidget::rowChosen, this, [this](std::size_t row) { load(runOfRow(row)); });
     connect(plot_, &PlotWidget::cellChosen, this, [this](double x, double y) {
         if (const auto* study = job_->as<StabilityStudy>(); study && study->options().y)
@@ -175,7 +183,8 @@ void StudyPage::start() {
     if (!workspace_.hasScene()) return;
     try {
         const StudyEntry& entry = form_->chosen();
-        Study study = form_->study(*workspace_.resolved(), wanted_->value());
+        if (!form_->checkWishes(*workspace_.resolved())) return;
+        Study study = form_->study(*workspace_.resolved(), wanted_.error());
         studied_ = studiedPart(workspace_.scene());
         shown_ = &entry;
         mapped_.clear();
@@ -201,8 +210,8 @@ void StudyPage::measureCheapest() {
 void StudyPage::openChoices() { form_->openChoices(); }
 
 void StudyPage::askForError() {
-    if (wanted_->isHidden()) form_->choose("cheapest");
-    wanted_->takeFocus();
+    if (wantedEdit_->isHidden()) form_->choose("cheapest");
+    wantedEdit_->takeFocus();
 }
 
 void StudyPage::setTheme(const Theme& theme) {
@@ -227,7 +236,7 @@ bool StudyPage::hasWantedError() const {
 
 void StudyPage::showKind() {
     const bool isAsked = hasWantedError() || form_->chosen().over == StudyEntry::Over::wantedError;
-    wanted_->setVisible(isAsked || form_->chosen().over == StudyEntry::Over::usableSteps);
+    wantedEdit_->setVisible(isAsked || form_->chosen().over == StudyEntry::Over::usableSteps);
     answer_->setVisible(isAsked);
     measure_->setVisible(isAsked);
     showState();
@@ -260,8 +269,8 @@ void StudyPage::showFigure() {
     plotCard_->setTitle(QString::fromStdString(figure.title));
     plotCard_->setSubtitle(QString::fromStdString(figure.subtitle));
     plot_->setFigure(std::move(figure));
-    plot_->setLevel(hasWantedError() ? std::optional(wanted_->value()) : std::nullopt,
-                    shortNumber(wanted_->value(), 2));
+    plot_->setLevel(hasWantedError() ? std::optional(wanted_.error()) : std::nullopt,
+                    shortNumber(wanted_.error(), 2));
 }
 
 /// What would reach the wanted error, before it is measured.
@@ -284,7 +293,7 @@ void StudyPage::showTable() {
     if (!study || !shown_) return;
     proposals_.clear();
     if (const Sweep* sweep = job_->as<Sweep>(); sweep && hasWantedError() && !isCheapest()) {
-        proposals_ = proposalsFor(*sweep, wanted_->value());
+        proposals_ = proposalsFor(*sweep, wanted_.error());
         tableCard_->setTitle(tr("Schemes that reach the error"));
         fill(proposalTable());
     } else {
@@ -334,8 +343,12 @@ QString StudyPage::answer() const {
     const auto label = [&](std::size_t scheme) {
         return QString::fromStdString(sweep->scene().scene.schemes[scheme].label);
     };
-    const double wanted = isCheapest() ? sweep->options().wantedError : wanted_->value();
-    const QString start = shortNumber(wanted, 2) + QStringLiteral("  →  ");
+    const double wanted = isCheapest() ? sweep->options().wantedError : wanted_.error();
+    QString start = shortNumber(wanted, 2);
+    if (isCheapest())
+        for (const Wish& wish : sweep->options().wishes)
+            start += tr(" and %1 %2").arg(QString::fromStdString(wish.metric), shortNumber(wish.value, 2));
+    start += QStringLiteral("  →  ");
     if (!isCheapest()) {
         if (proposals_.empty())
             return job_->isRunning() ? start + tr("no point reaches it yet")
@@ -360,14 +373,13 @@ QString StudyPage::answer() const {
                          shortTime(best->result.cpuSeconds));
     if (best->result.predictedSeconds > 0)
         text += tr(" (%1 predicted)").arg(shortTime(best->result.predictedSeconds));
-    if (wanted != wanted_->value()) text += tr("; Ctrl+M measures %1").arg(shortNumber(wanted_->value(), 2));
+    if (wanted != wanted_.error()) text += tr("; Ctrl+M measures %1").arg(shortNumber(wanted_.error(), 2));
     return text;
 }
 
 /// Another wanted error: the line in the plot and the proposals follow, the figure stays.
 void StudyPage::showWanted() {
-    if (job_->study() && hasWantedError())
-        plot_->setLevel(wanted_->value(), shortNumber(wanted_->value(), 2));
+    if (job_->study() && hasWantedError()) plot_->setLevel(wanted_.error(), shortNumber(wanted_.error(), 2));
     if (isCheapest())
         answer_->setText(answer());
     else

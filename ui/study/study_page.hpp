@@ -24,6 +24,7 @@ namespace extremal {
 class Card;
 class PlotWidget;
 class StudyForm;
+class Wanted;
 class WantedError;
 class Workspace;
 struct Theme;
@@ -31,7 +32,7 @@ struct Theme;
 class StudyPage : public QWidget {
     Q_OBJECT
 public:
-    StudyPage(Workspace& workspace, const Theme& theme, QWidget* parent = nullptr);
+    StudyPage(Workspace& workspace, Wanted& wanted, const Theme& theme, QWidget* parent = nullptr);
 
     /// Runs the study that is chosen; what is wrong with its options is told by problemFound().
     void start();
@@ -90,6 +91,7 @@ private:
     void load(const LoadableRun& run);
 
     Workspace& workspace_;
+    Wanted& wanted_;
     StudyJob* job_;
     const StudyEntry* shown_ = nullptr;  ///< what the job computes
     std::optional<Scene> studied_;       ///< the scene that it is of
@@ -97,7 +99,7 @@ private:
     std::string mapped_;                 ///< the scheme of the map that is shown
     int figuresMade_ = 0;
     StudyForm* form_;
-    WantedError* wanted_;
+    WantedError* wantedEdit_;
     QLabel* answer_;
     QPushButton *measure_, *use_, *load_;
     Card *plotCard_, *tableCard_;

@@ -6,26 +6,28 @@
 #include <QLineEdit>
 #include <QSignalBlocker>
 
-#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/core/text/text.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/seek_slider.hpp"
+#include "ui/workspace/wanted.hpp"
 
 namespace extremal {
 namespace {
 
-constexpr int tenths = 10, lowest = -15, highest = 2;  ///< powers of ten
+constexpr int tenths = 10;  ///< of a power of ten
 
 }  // namespace
 
-WantedError::WantedError(QWidget* parent) : QWidget(parent) {
+WantedError::WantedError(Wanted& wanted, QWidget* parent) : QWidget(parent), wanted_(wanted) {
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(8);
     text_ = new QLineEdit;
+    text_->setObjectName("wantedError");
     text_->setAccessibleName(tr("Wanted error"));
     text_->setMaximumWidth(80);
     text_->setToolTip(
@@ -33,7 +35,7 @@ WantedError::WantedError(QWidget* parent) : QWidget(parent) {
     auto* label = makeLabel(tr("wanted error"), "caption");
     label->setBuddy(text_);
     slider_ = new SeekSlider(Qt::Horizontal);
-    slider_->setRange(tenths * lowest, tenths * highest);
+    slider_->setRange(tenths * Wanted::lowestPower, tenths * Wanted::highestPower);
     slider_->setPageStep(tenths);
     slider_->setMinimumWidth(80);
     slider_->setAccessibleName(tr("Wanted error, slider"));
@@ -42,18 +44,9 @@ WantedError::WantedError(QWidget* parent) : QWidget(parent) {
     row->addWidget(slider_, 1);
     connect(text_, &QLineEdit::editingFinished, this, &WantedError::readText);
     connect(slider_, &QSlider::valueChanged, this,
-            [this](int place) { setValue(std::pow(10.0, static_cast<double>(place) / tenths)); });
+            [this](int place) { wanted_.setError(std::pow(10.0, static_cast<double>(place) / tenths)); });
+    connect(&wanted_, &Wanted::changed, this, &WantedError::show);
     show();
-}
-
-void WantedError::setValue(double value) {
-    if (!(value > 0)) return;
-    const double within = std::clamp(value, std::pow(10.0, lowest), std::pow(10.0, highest));
-    const double rounded = parseNumber(formatNumber(within, 2)).value_or(within);
-    if (rounded == value_) return show();
-    value_ = rounded;
-    show();
-    emit changed(value_);
 }
 
 void WantedError::takeFocus() {
@@ -63,15 +56,17 @@ void WantedError::takeFocus() {
 
 void WantedError::readText() {
     const std::optional<double> number = parseNumber(text_->text().trimmed().toStdString());
-    if (number && *number > 0 && std::isfinite(*number)) return setValue(*number);
-    emit refused(text_->text());
+    if (number && *number > 0 && std::isfinite(*number))
+        wanted_.setError(*number);
+    else
+        emit refused(text_->text());
     show();
 }
 
 void WantedError::show() {
-    text_->setText(shortNumber(value_, 2));
+    text_->setText(shortNumber(wanted_.error(), 2));
     const QSignalBlocker blocker(slider_);
-    slider_->setValue(static_cast<int>(std::lround(tenths * std::log10(value_))));
+    slider_->setValue(static_cast<int>(std::lround(tenths * std::log10(wanted_.error()))));
 }
 
 }  // namespace extremal

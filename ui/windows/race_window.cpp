@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSignalBlocker>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "ui/base/tool_window.hpp"
 #include "ui/stage/stage_widget.hpp"
 #include "ui/workspace/run_control.hpp"
+#include "ui/workspace/wanted.hpp"
 
 namespace extremal {
 namespace {
@@ -24,8 +26,8 @@ constexpr int tickMs = 33, wholeMs = 10000, fine = 1000;
 
 }  // namespace
 
-RaceWindow::RaceWindow(RunControl& run, const Theme& theme, QWidget* parent)
-    : QWidget(parent, Qt::Window), run_(run), theme_(theme) {
+RaceWindow::RaceWindow(RunControl& run, Wanted& wanted, const Theme& theme, QWidget* parent)
+    : QWidget(parent, Qt::Window), run_(run), error_(wanted), theme_(theme) {
     setUpToolWindow(*this, "race", tr("Race"), "studies", {1200, 800});
     closeOnEscape(*this);
     auto* column = new QVBoxLayout(this);
@@ -45,9 +47,10 @@ RaceWindow::RaceWindow(RunControl& run, const Theme& theme, QWidget* parent)
     row->addWidget(wanted_);
     digits_ = new SeekSlider(Qt::Horizontal, this);
     digits_->setRange(-14, 0);
-    digits_->setValue(-2);
     digits_->setAccessibleName(tr("Wanted error"));
-    connect(digits_, &QSlider::valueChanged, this, &RaceWindow::show);
+    connect(digits_, &QSlider::valueChanged, this,
+            [this](int power) { error_.setError(std::pow(10.0, power)); });
+    connect(&error_, &Wanted::changed, this, &RaceWindow::show);
     row->addWidget(digits_, 1);
     column->addLayout(row);
     grid_ = new QGridLayout;
@@ -76,8 +79,6 @@ void RaceWindow::setPlaying(bool plays) {
 }
 
 void RaceWindow::setSpent(double share) { share_->setValue(static_cast<int>(std::lround(share * fine))); }
-void RaceWindow::setWantedDigits(int digits) { digits_->setValue(-digits); }
-
 void RaceWindow::setTheme(const Theme& theme) {
     theme_ = theme;
     for (const Lane& lane : lanes_) lane.stage->setTheme(theme);
@@ -117,9 +118,13 @@ void RaceWindow::build() {
 }
 
 void RaceWindow::show() {
-    const double spent = longest_ * share_->value() / fine, wanted = std::pow(10.0, digits_->value());
+    const double spent = longest_ * share_->value() / fine, wanted = error_.error();
     spent_->setText(tr("%1 CPU").arg(shortTime(spent)));
-    wanted_->setText(tr("wanted error 1e%1").arg(digits_->value()));
+    wanted_->setText(tr("wanted error %1").arg(shortNumber(wanted)));
+    {
+        const QSignalBlocker blocker(digits_);
+        digits_->setValue(static_cast<int>(std::lround(std::log10(wanted))));
+    }
     const std::vector<int> places = placesOf(runners_, spent, wanted);
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
         const Runner& runner = runners_[i];

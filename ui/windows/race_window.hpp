@@ -23,15 +23,15 @@ namespace extremal {
 class Card;
 class RunControl;
 class StageWidget;
+class Wanted;
 
 class RaceWindow : public QWidget {
     Q_OBJECT
 public:
-    RaceWindow(RunControl& run, const Theme& theme, QWidget* parent = nullptr);
+    RaceWindow(RunControl& run, Wanted& wanted, const Theme& theme, QWidget* parent = nullptr);
     void open();  ///< with the present results, from the start
     void setTheme(const Theme& theme);
-    void setSpent(double share);       ///< of the time that the slowest needs, 0 to 1
-    void setWantedDigits(int digits);  ///< the wanted error is 10^-digits
+    void setSpent(double share);  ///< of the time that the slowest needs, 0 to 1
     /// What stands below each stage.
     QStringList verdicts() const;
 
@@ -47,6 +47,7 @@ private:
     void setPlaying(bool plays);
 
     RunControl& run_;
+    Wanted& error_;
     Theme theme_;
     std::vector<Runner> runners_;
     std::vector<Lane> lanes_;

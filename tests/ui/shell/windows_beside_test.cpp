@@ -16,6 +16,7 @@
 #include "ui/windows/copies_window.hpp"
 #include "ui/windows/race_window.hpp"
 #include "ui/windows/size_dialog.hpp"
+#include "ui/workspace/wanted.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal::windows_beside_test {
@@ -34,14 +35,14 @@ private slots:
         auto* const race = window.findChild<RaceWindow*>();
         QVERIFY(race && race->isVisible());
         QCOMPARE(race->verdicts().size(), qsizetype{4});
-        race->setWantedDigits(0);
+        window.wanted().setError(1);
         race->setSpent(1);
         const auto with = [&](const char* text) {
             const QStringList all = race->verdicts();
             return std::count_if(all.begin(), all.end(), [&](const QString& v) { return v.contains(text); });
         };
         QVERIFY(with("1. in") == 1);
-        race->setWantedDigits(14);
+        window.wanted().setError(1e-14);
         QCOMPARE(with("1. in"), 0);
         QCOMPARE(with("out"), 4);
         race->setSpent(0);

@@ -14,6 +14,7 @@
 #include "tests/ui/window.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/header_bar.hpp"
+#include "ui/workspace/wanted.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal::background_sweep_test {
@@ -100,8 +101,8 @@ private slots:
             for (const SweptPoint& p : swept.points) best = std::min(best, p.error);
         const double wanted = std::pow(10, std::ceil(std::log10(best)));
         QVERIFY(wanted < own);
-        header->setWantedError(wanted);
-        QCOMPARE(window.costs().level().value_or(0), header->wantedError());
+        window.wanted().setError(wanted);
+        QCOMPARE(window.costs().level().value_or(0), window.wanted().error());
         QVERIFY(use->isVisible());
         const Scene scene = window.workspace().scene();
         use->click();
@@ -113,9 +114,8 @@ private slots:
     }
     void theLineOfTheWantedErrorMovesTheSlider() {
         Window window("preset:pendulum");
-        auto* header = window.findChild<HeaderBar*>();
         emit window.costs().levelMoved(1e-3);
-        QCOMPARE(header->wantedError(), 1e-3);
+        QCOMPARE(window.wanted().error(), 1e-3);
         QCOMPARE(window.costs().level().value_or(0), 1e-3);
     }
 };
