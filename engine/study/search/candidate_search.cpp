@@ -163,8 +163,14 @@ void CandidateSearch::reduce(std::size_t index, std::span<const double> wishes, 
     std::vector<StudyPoint> points{schemes_[index].point};
     std::vector<ResolvedScheme> variants{whole};
     std::vector<RaceEntry> entries(1);
-    const auto n = static_cast<double>(result.steps);
-    const double cost = known_.at({points[0].scheme, 0, 0, n}).cost;
+    // Not every scheme takes as many steps as the run was asked for.
+    const auto found = std::find_if(known_.begin(), known_.end(), [&](const auto& known) {
+        const auto& [scheme, degree, nodes, asked] = known.first;
+        return scheme == points[0].scheme && degree == 0 && nodes == 0 &&
+               known.second.result.step == result.step && known.second.result.tolerance == result.tolerance;
+    });
+    if (found == known_.end()) return;
+    const double n = std::get<3>(found->first), cost = found->second.cost;
     entries[0].isSingle = true;
     entries[0].firstN = n;
     for (const Reduction& reduction : reductionsOf(whole, scene_)) {
