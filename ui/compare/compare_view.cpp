@@ -68,21 +68,6 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
 
 CompareView::~CompareView() = default;
 
-void CompareView::makeStage() {
-    stageCard_ = new Card(tr("Stage"), inside_);
-    stage_ = new StageWidget;
-    stage_->setTheme(*theme_);
-    stage_->setAccessibleName(tr("Stage"));
-    stage_->setFocusPolicy(Qt::ClickFocus);
-    stageCard_->body()->addWidget(stage_, 1);
-    stageCard_->menu()->addAction(tr("Fit"), stage_, &StageWidget::fit);
-    makeMaximizable(*stageCard_);
-    connectDrawing();
-    connectPreview();
-    connectBodies();
-    connectSketch();
-}
-
 void CompareView::connectState() {
     connect(&workspace_, &Workspace::opened, this, [this] {  // another scene has no zoom yet
         arranged_.clear();

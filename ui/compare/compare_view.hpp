@@ -53,6 +53,9 @@ public:
     /// Puts another theme on the stage and the plots, one after the other.
     std::vector<std::function<void()>> partsOfTheme(const Theme& theme);
     void fitAll();
+    void toggleSideBySide();  ///< of the schemes on the stage
+    void togglePotential();   ///< behind the motion on the stage
+    void changeTrails();      ///< to longer ones, and back to short ones
     /// Brings the card of a view into sight and marks it; that of no view ("") marks none.
     void pointAt(const QString& view);
     /// Where "speed against accuracy" has its lines from.

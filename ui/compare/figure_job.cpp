@@ -15,7 +15,7 @@ FigureSet makeFigures(const FigureJob& job) {
     FigureSet made{job, {}, {}};
     for (const auto& [plot, view] : job.views)
         made.figures.push_back(makeFigure(results, view, system.get()));
-    if (job.makesStage) made.player.emplace(job.results, *system);
+    if (job.makesStage) made.player.emplace(job.results, *system).findPotential();
     return made;
 }
 

@@ -114,6 +114,7 @@ private:
     void addFileActions();
     void addEditActions();
     void addViewActions();
+    void addStageActions(const QString& menu);
     void addLayoutActions(const QString& menu);
     void fillPlots(QMenu& menu);
     void toggleScheme(int index);

@@ -248,6 +248,21 @@ void MainWindow::fillPlots(QMenu& menu) {
     menu.setToolTipsVisible(true);
 }
 
+/// What the stage shows; its card has the same in its menu.
+void MainWindow::addStageActions(const QString& menu) {
+    actions_->add(
+        "sideBySide", menu, tr("Schemes side by side on the stage"), {QKeySequence(Qt::Key_B)},
+        [this] { compare_->toggleSideBySide(); }, tr("Each scheme in a place of its own, or all in one"));
+    actions_->add(
+        "trails", menu, tr("Longer or shorter trails"), {QKeySequence(Qt::Key_T)},
+        [this] { compare_->changeTrails(); },
+        tr("Trails on the stage that fade, ten times as long, or from the start"));
+    actions_->add(
+        "potential", menu, tr("Potential on the stage"), {QKeySequence(Qt::Key_U)},
+        [this] { compare_->togglePotential(); },
+        tr("Level lines or the graph of the potential behind motions in one or two dimensions"));
+}
+
 void MainWindow::addViewActions() {
     const QString menu = tr("View");
     actions_->add(
@@ -256,6 +271,7 @@ void MainWindow::addViewActions() {
     actions_->add("palette", menu, tr("Find an action..."), {QKeySequence(Qt::CTRL | Qt::Key_K)},
                   [this] { showPalette(); });
     actions_->add("fit", menu, tr("Fit all"), {QKeySequence(Qt::Key_A)}, [this] { compare_->fitAll(); });
+    addStageActions(menu);
     actions_->add("values", menu, tr("Values at the cursor"), {QKeySequence(Qt::Key_V)}, [this] {
         values_->setVisible(values_->isHidden());
         showValues();

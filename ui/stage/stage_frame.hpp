@@ -61,6 +61,7 @@ struct StageFrame {
     StageStyle style;
     Bounds bounds;  ///< over the whole run, so that the picture does not jump
     std::vector<Shape> scenery;
+    double trailSpan = 0;            ///< time that the trails go back
     std::vector<StageLayer> layers;  ///< in the order of the scene
     std::optional<StageInset> inset;
     /// Failures before t, "Stormer-Verlet diverged at t = 0.31", and events, "SEM 2: energy unsolvable, 3

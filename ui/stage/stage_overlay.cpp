@@ -159,9 +159,9 @@ void paintOverlay(QPainter& painter, const QRectF& area, const StageFrame& frame
     painter.setPen(theme.text);
     painter.drawText(QPointF(area.left() + 12, baseline), now);
     const QString trail = withUnit(
-        QStringLiteral("trail %1").arg(QString::fromStdString(formatNumber(player.trailSpan(), 3))), player);
+        QStringLiteral("trail %1").arg(QString::fromStdString(formatNumber(frame.trailSpan, 3))), player);
     const double x = area.left() + 12 + metrics.horizontalAdvance(now) + 16;
-    if (player.trailSpan() > 0 && x + metrics.horizontalAdvance(trail) < area.right()) {
+    if (frame.trailSpan > 0 && x + metrics.horizontalAdvance(trail) < area.right()) {
         painter.setPen(theme.muted);
         painter.drawText(QPointF(x, baseline), trail);
     }

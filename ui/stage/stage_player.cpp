@@ -8,24 +8,15 @@
 #include "engine/core/text/text.hpp"
 #include "engine/scene/bind.hpp"
 #include "ui/stage/stage_inset.hpp"
+#include "ui/stage/stage_shapes.hpp"
 
 namespace extremal {
 namespace {
 
-constexpr std::size_t maxTrailRows = 400;   // per scheme and picture
 constexpr std::size_t maxBoundsRows = 500;  // per scheme
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 bool isFinite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
-
-/// Where systems in space are seen from, at one pixel per unit.
-Camera cornerView() {
-    Camera camera;
-    camera.pixelsPerUnit = 1;
-    camera.azimuth = 0.55;
-    camera.elevation = 0.32;
-    return camera;
-}
 
 /// The points that make up the extent of one shape.
 void addExtent(const Shape& shape, std::vector<Point>& points) {
@@ -51,17 +42,6 @@ void addExtent(const Shape& shape, std::vector<Point>& points) {
         right[0] += support->width / 2;
         points.insert(points.end(), {left, right});
     }
-}
-
-bool isScenery(const Shape& shape) {
-    if (const auto* segment = std::get_if<Segment>(&shape)) return segment->role == ShapeRole::scenery;
-    if (const auto* spring = std::get_if<Spring>(&shape)) return spring->role == ShapeRole::scenery;
-    if (const auto* disc = std::get_if<Disc>(&shape)) return disc->role == ShapeRole::scenery;
-    if (const auto* word = std::get_if<Word>(&shape)) return word->role == ShapeRole::scenery;
-    if (const auto* curve = std::get_if<Curve>(&shape)) return curve->role == ShapeRole::scenery;
-    if (const auto* raster = std::get_if<Raster>(&shape)) return raster->role == ShapeRole::scenery;
-    if (std::holds_alternative<Solid>(shape) || std::holds_alternative<Curtain>(shape)) return false;
-    return true;
 }
 
 /// The box of the points without those far beyond the rest: more than 6 times the median distance from the
@@ -330,14 +310,15 @@ void StagePlayer::stateAt(const Track& track, double t, std::vector<double>& x) 
     rowState(track, t - track.t[row] <= track.t[row + 1] - t ? row : row + 1, x);
 }
 
-std::vector<TrailPoint> StagePlayer::trail(const Track& track, const Trace& trace, double t) const {
+std::vector<TrailPoint> StagePlayer::trail(const Track& track, const Trace& trace, double t,
+                                           std::size_t rows) const {
     std::vector<TrailPoint> points;
     const double now = std::min(t, track.t.back());
     if (!(trace.span > 0) || now < track.t.front()) return points;
     const auto index = [&](auto it) { return static_cast<std::size_t>(it - track.t.begin()); };
     const std::size_t first = index(std::lower_bound(track.t.begin(), track.t.end(), now - trace.span));
     const std::size_t last = index(std::upper_bound(track.t.begin(), track.t.end(), now));  // one past
-    const std::size_t stride = first < last ? (last - first + maxTrailRows - 1) / maxTrailRows : 1;
+    const std::size_t stride = first < last ? (last - first + rows - 1) / rows : 1;
     const auto add = [&](const std::vector<double>& x, double time, bool isJoined) {
         const Point p = tracer(x, trace.isInset);
         if (isFinite(p)) points.push_back({p, (now - time) / trace.span, isJoined && !points.empty()});
@@ -369,10 +350,10 @@ std::vector<TrailPoint> StagePlayer::trail(const Track& track, const Trace& trac
 }
 
 /// Where steps had an event: as far back as the trail, or since the start where there is none.
-std::vector<TrailPoint> StagePlayer::marks(const Track& track, double t) const {
+std::vector<TrailPoint> StagePlayer::marks(const Track& track, const Trace& trace, double t) const {
     constexpr std::size_t most = 200;
     std::vector<TrailPoint> points;
-    const double now = std::min(t, track.t.back()), span = trace_.span;
+    const double now = std::min(t, track.t.back()), span = trace.span;
     const auto& all = track.result->events.marks;
     std::vector<double> x;
     for (auto mark = all.rbegin(); mark != all.rend() && points.size() < most; ++mark) {
@@ -403,24 +384,6 @@ std::string StagePlayer::failureNote(const Track& track, const std::string& labe
            (system_.timeUnit.empty() ? "" : " " + system_.timeUnit);
 }
 
-/// The projection from a corner fits the picture more closely than the bounding box. An inset takes a part of
-/// the right, or of the bottom of what is tall.
-Camera StagePlayer::fittedCamera(double width, double height, double margin) const {
-    // The picture of a field over a rectangle needs no room around it.
-    if (!system_.field.y.empty()) margin = std::min(margin, 10.0);
-    if (!isSpatial()) return fitCamera(bounds_, width, height, margin);
-    const double taken = inset_ ? InsetPlace::corner(width, height) : 0;
-    const bool isWide = width >= height;
-    const Camera flat = fitCamera(seen_, width - (isWide ? taken : 0), height - (isWide ? 0 : taken), margin);
-    Camera camera = cornerView();
-    const auto axes = camera.axes();
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 3; ++k) camera.centre[i] += axes[k][i] * flat.centre[k];
-    camera.pixelsPerUnit = flat.pixelsPerUnit;
-    camera.centre = isWide ? camera.unproject(taken / 2, 0) : camera.unproject(0, -taken / 2);
-    return camera;
-}
-
 /// The exact solution as a line.
 void StagePlayer::addExact(double t, StageFrame& frame) const {
     if (!exact_) return;
@@ -431,50 +394,6 @@ void StagePlayer::addExact(double t, StageFrame& frame) const {
     for (Shape& shape : drawing.shapes)
         if (auto* curtain = std::get_if<Curtain>(&shape))
             frame.scenery.push_back(Curve{std::move(curtain->top), 1.6, 1, ShapeRole::scenery});
-}
-
-StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
-    StageFrame frame;
-    frame.t = t;
-    frame.style = style;
-    frame.bounds = bounds_;
-    frame.inset = inset_;
-    addExact(t, frame);
-    std::vector<double> x;
-    Drawing drawing;
-    for (const Track& track : tracks_) {
-        StageLayer layer;
-        layer.label =
-            track.result->summary.label.empty() ? track.result->spec.label : track.result->summary.label;
-        if (!style.series.empty())
-            layer.colour =
-                style
-                    .series[static_cast<std::size_t>(std::max(track.result->style, 0)) % style.series.size()];
-        const double tolerance = 1e-9 * (1 + std::abs(t));
-        layer.hasEnded = track.hasFailed && t > track.t.back() + tolerance;
-        if (layer.hasEnded) frame.notes.push_back(failureNote(track, layer.label));
-        stateAt(track, t, x);
-        drawing.clear();
-        (track.system ? *track.system : system_).draw(x.data(), drawing);
-        const bool isFirst = frame.layers.empty();
-        for (const Shape& shape : drawing.shapes) {
-            if (!isScenery(shape))
-                layer.shapes.push_back(shape);
-            else if (isFirst)
-                frame.scenery.push_back(shape);
-        }
-        addClocks(track, t, layer);
-        layer.trail = trail(track, trace_, t);
-        layer.marks = marks(track, t);
-        if (const std::string note = eventNote(track, layer.label, t); !note.empty())
-            frame.notes.push_back(note);
-        if (inset_) {
-            layer.insetTracer = tracer(x, true);
-            layer.insetTrail = trail(track, insetTrace_, t);
-        }
-        frame.layers.push_back(std::move(layer));
-    }
-    return frame;
 }
 
 }  // namespace extremal

@@ -17,7 +17,9 @@
 
 #include "engine/model/system.hpp"
 #include "engine/run/comparison.hpp"
+#include "ui/stage/potential_curves.hpp"
 #include "ui/stage/stage_frame.hpp"
+#include "ui/stage/stage_look.hpp"
 
 namespace extremal {
 
@@ -39,19 +41,28 @@ public:
     /// The picture has depth: it can be turned.
     bool isSpatial() const { return system_.isSpatial; }
     /// The camera that shows everything.
-    Camera fittedCamera(double width, double height, double margin) const;
+    Camera fittedCamera(double width, double height, double margin, const StageLook& look = {}) const;
 
-    StageFrame frame(double t, const StageStyle& style) const;
+    StageFrame frame(double t, const StageStyle& style, const StageLook& look = {}) const;
+
+    /// Places beside each other for all schemes, seen from this direction, so that they are as large as a
+    /// picture of this size allows.
+    StageTiling tilingFor(double width, double height, const Camera& direction) const;
+    /// Finds the curves of the potential, which takes some milliseconds.
+    void findPotential();
+    bool hasPotential() const { return !potential_.curves.empty(); }
 
     /// A body as a scheme has it at a time: a disc of the drawing of its state.
     struct Grip {
         std::vector<double> x;
         std::size_t shape = 0;  ///< its place among the shapes
-        Point place{};
+        Point place{};          ///< in the picture
+        Point offset{};         ///< by which its scheme is moved there
     };
     /// The body nearest to a pixel, x right and y up from the middle, and no farther than `reach` from its
     /// rim; none where there is no body or the bodies of the system cannot be moved.
-    std::optional<Grip> gripAt(double t, const Camera& camera, double x, double y, double reach) const;
+    std::optional<Grip> gripAt(double t, const Camera& camera, double x, double y, double reach,
+                               const StageTiling& tiling = {}) const;
     const System& system() const { return system_; }
 
 private:
@@ -90,8 +101,11 @@ private:
     void makeRoomForClocks();
     void addClocks(const Track& track, double t, StageLayer& layer) const;
     void stateAt(const Track& track, double t, std::vector<double>& x) const;
-    std::vector<TrailPoint> trail(const Track& track, const Trace& trace, double t) const;
-    std::vector<TrailPoint> marks(const Track& track, double t) const;
+    std::vector<TrailPoint> trail(const Track& track, const Trace& trace, double t, std::size_t rows) const;
+    std::vector<TrailPoint> marks(const Track& track, const Trace& trace, double t) const;
+    Trace traceFor(StageTrails trails) const;
+    void tile(StageFrame& frame, const StageTiling& tiling) const;
+    const Bounds& flatBounds(const StageLook& look, Bounds& whole) const;
     std::string eventNote(const Track& track, const std::string& label, double t) const;
     std::string failureNote(const Track& track, const std::string& label) const;
 
@@ -103,6 +117,7 @@ private:
     ExactSolution exact_;                    ///< of a field, drawn behind the schemes
     std::size_t exactWidth_ = 0;
     Trace trace_, insetTrace_{true, 0, 0};
+    PotentialCurves potential_;
     std::optional<StageInset> inset_;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/stage/stage_widget.hpp"
 
-#include <QElapsedTimer>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
@@ -55,6 +54,9 @@ struct StageWidget::Impl {
     StagePlayer player;
     StageFrame frame;
     bool isFrameCurrent = false;
+    bool isSideBySide = false, hasPotential = false;
+    StageTrails trails = StageTrails::fading;
+    StageLook framed;  ///< the look of the frame
     double t = 0;
     std::optional<Camera> chosen;  ///< the user's view; empty: everything is shown
     QPointF dragged;
@@ -65,12 +67,11 @@ struct StageWidget::Impl {
     std::optional<Point> arrow;                ///< the end of the velocity that it is given
     std::optional<Drawing> ghost;
     struct Moment {
-        qint64 ms;
+        quint64 ms;  ///< of the event, not of when it was dealt with
         QPointF place;
     };
     std::deque<Moment> recent;  ///< of the pointer, while a body is dragged
-    QElapsedTimer clock;
-    QPointF taken;  ///< where it was pressed
+    QPointF taken;              ///< where it was pressed
     std::vector<Point> sketch;
     OverlayOptions overlay;
     bool hasGrid = false;
@@ -81,18 +82,32 @@ struct StageWidget::Impl {
     }
     /// The motion fills the widget but for a margin, and a line of words at the foot.
     Camera fitted() const {
-        constexpr double part = 0.08, least = 14, foot = 20;
-        const double height = self->height() - foot;
+        constexpr double part = 0.08, least = 14;
+        const double height = heightOfPicture();
         const double margin = std::max(least, part * std::min<double>(self->width(), height));
-        Camera camera = player.fittedCamera(self->width(), height, margin);
-        camera.centre = camera.unproject(0, -foot / 2);
+        Camera camera = player.fittedCamera(self->width(), height, margin, look());
+        camera.centre = camera.unproject(0, -(self->height() - height) / 2);
         return camera;
     }
+    double heightOfPicture() const {
+        constexpr double foot = 20;
+        return self->height() - foot;
+    }
+    StageLook look() const {
+        StageLook found{{}, trails, hasPotential && !isSideBySide};
+        Camera direction;
+        if (player.isSpatial()) direction = chosen ? *chosen : player.fittedCamera(100, 100, 0);
+        if (isSideBySide && player.hasStage())
+            found.tiling = player.tilingFor(self->width(), heightOfPicture(), direction);
+        return found;
+    }
     const StageFrame& currentFrame() {
-        if (!isFrameCurrent) {
+        const StageLook wanted = look();
+        if (!isFrameCurrent || !(wanted == framed)) {
+            framed = wanted;
             StageStyle style = stageStyle(theme);
             style.hasGrid = hasGrid;
-            frame = player.frame(t, style);
+            frame = player.frame(t, style, framed);
             isFrameCurrent = true;
         }
         return frame;
@@ -151,7 +166,8 @@ struct StageWidget::Impl {
                          QStringLiteral("drag: start from here   Shift and drag, or throw: velocity"));
         Point place = body->place;
         if (gripped && ghost && gripped->shape < ghost->shapes.size())
-            if (const auto* disc = std::get_if<Disc>(&ghost->shapes[gripped->shape])) place = disc->centre;
+            if (const auto* disc = std::get_if<Disc>(&ghost->shapes[gripped->shape]))
+                place = inTile(disc->centre);
         const QPointF at = onWidget(place);
         painter.setPen(QPen(theme.accent, 2));
         painter.setBrush(Qt::NoBrush);
@@ -163,18 +179,24 @@ struct StageWidget::Impl {
         for (const double side : {2.6, -2.6})
             painter.drawLine(end, end + 9 * QPointF(std::cos(angle + side), std::sin(angle + side)));
     }
+    /// Where the scheme in the hand stands.
+    Point inTile(Point p) const {
+        if (gripped)
+            for (std::size_t i = 0; i < 3; ++i) p[i] += gripped->offset[i];
+        return p;
+    }
     void paintGhost(QPainter& painter) const {
         QColor colour = theme.accent;
         colour.setAlphaF(0.75f);
         painter.setPen(QPen(colour, 2));
         for (const Shape& shape : ghost->shapes) {
             if (const auto* rod = std::get_if<Segment>(&shape); rod && rod->role == ShapeRole::body)
-                painter.drawLine(onWidget(rod->a), onWidget(rod->b));
+                painter.drawLine(onWidget(inTile(rod->a)), onWidget(inTile(rod->b)));
             if (const auto* spring = std::get_if<Spring>(&shape))
-                painter.drawLine(onWidget(spring->a), onWidget(spring->b));
+                painter.drawLine(onWidget(inTile(spring->a)), onWidget(inTile(spring->b)));
             if (const auto* disc = std::get_if<Disc>(&shape); disc && disc->role == ShapeRole::body) {
                 painter.setBrush(colour);
-                painter.drawEllipse(onWidget(disc->centre), disc->radius, disc->radius);
+                painter.drawEllipse(onWidget(inTile(disc->centre)), disc->radius, disc->radius);
                 painter.setBrush(Qt::NoBrush);
             }
         }
@@ -182,7 +204,7 @@ struct StageWidget::Impl {
     std::optional<StagePlayer::Grip> gripAt(QPointF place) const {
         constexpr double reach = 6;
         return player.gripAt(t, camera(), place.x() - self->width() / 2.0, self->height() / 2.0 - place.y(),
-                             reach);
+                             reach, look().tiling);
     }
     /// The point as deep as `from` that is seen so many pixels right of it and above it.
     Point beside(const Point& from, QPointF by) const {
@@ -297,6 +319,26 @@ void StageWidget::setSketch(std::vector<Point> points) {
     impl_->words->update();
 }
 
+void StageWidget::setSideBySide(bool isSideBySide) {
+    impl_->isSideBySide = isSideBySide;
+    fit();
+    impl_->changed();
+}
+bool StageWidget::isSideBySide() const { return impl_->isSideBySide; }
+
+void StageWidget::setTrails(StageTrails trails) {
+    impl_->trails = trails;
+    impl_->changed();
+}
+StageTrails StageWidget::trails() const { return impl_->trails; }
+
+void StageWidget::setPotentialShown(bool isShown) {
+    impl_->hasPotential = isShown;
+    impl_->changed();
+}
+bool StageWidget::isPotentialShown() const { return impl_->hasPotential; }
+bool StageWidget::hasPotential() const { return impl_->player.hasPotential(); }
+
 void StageWidget::fit() { impl_->choose(std::nullopt); }
 void StageWidget::zoom(double factor) { impl_->zoomAt(factor, QRectF(rect()).center()); }
 Camera StageWidget::camera() const { return impl_->camera(); }
@@ -351,7 +393,6 @@ void StageWidget::mousePressEvent(QMouseEvent* event) {
         impl_->held = impl_->camera();
         impl_->taken = event->position();
         impl_->recent.clear();
-        impl_->clock.start();
         emit bodyTaken(*impl_->gripped);
         return;
     }
@@ -389,16 +430,16 @@ void StageWidget::mouseMoveEvent(QMouseEvent* event) {
     impl_->choose(next);
 }
 
-void StageWidget::mouseReleaseEvent(QMouseEvent*) {
+void StageWidget::mouseReleaseEvent(QMouseEvent* event) {
     impl_->isDragging = false;
     unsetCursor();
-    if (impl_->gripped) return letBody();
+    if (impl_->gripped) return letBody(event->timestamp());
     if (std::exchange(impl_->isStroke, false)) emit strokeEnded();
 }
 
 void StageWidget::moveBody(const QMouseEvent& event) {
     constexpr std::size_t most = 64;
-    impl_->recent.push_back({impl_->clock.elapsed(), event.position()});
+    impl_->recent.push_back({event.timestamp(), event.position()});
     if (impl_->recent.size() > most) impl_->recent.pop_front();
     const bool isVelocity = event.modifiers() & Qt::ShiftModifier;
     const Point target = impl_->beside(impl_->gripped->place, event.position() - impl_->taken);
@@ -407,20 +448,21 @@ void StageWidget::moveBody(const QMouseEvent& event) {
     else
         impl_->arrow.reset();
     impl_->words->update();
-    emit bodyMoved(target, isVelocity);
+    Point own = target;  // where the scheme stands together with the others
+    for (std::size_t i = 0; i < 3; ++i) own[i] -= impl_->gripped->offset[i];
+    emit bodyMoved(own, isVelocity);
 }
 
 /// The pointer's velocity is that of its last tenth of a second; one that rests before throws nothing.
-void StageWidget::letBody() {
-    constexpr qint64 lately = 100;
+void StageWidget::letBody(quint64 now) {
+    constexpr quint64 lately = 100;
     constexpr double slow = 250;  // pixels per second
-    const qint64 now = impl_->clock.elapsed();
-    while (!impl_->recent.empty() && now - impl_->recent.front().ms > lately) impl_->recent.pop_front();
+    while (!impl_->recent.empty() && impl_->recent.front().ms + lately < now) impl_->recent.pop_front();
     QPointF speed;
     if (impl_->recent.size() > 1 && !impl_->arrow) {
         const auto &first = impl_->recent.front(), &last = impl_->recent.back();
-        speed =
-            (last.place - first.place) * (1000.0 / static_cast<double>(std::max<qint64>(1, now - first.ms)));
+        speed = (last.place - first.place) *
+                (1000.0 / static_cast<double>(std::max<quint64>(1, now - std::min(now, first.ms))));
     }
     if (std::hypot(speed.x(), speed.y()) < slow) speed = {};
     const Point velocity = impl_->beside({}, speed);

@@ -43,6 +43,15 @@ public:
     /// For use without a list of schemes beside the stage.
     void setLegendShown(bool isShown);
     void setGridShown(bool isShown);
+    /// Schemes beside each other, each with its name, or on top of each other.
+    void setSideBySide(bool isSideBySide);
+    bool isSideBySide() const;
+    void setTrails(StageTrails trails);
+    StageTrails trails() const;
+    /// Level lines or the graph of the potential, where the player has found it.
+    void setPotentialShown(bool isShown);
+    bool isPotentialShown() const;
+    bool hasPotential() const;
     void fit();
     void zoom(double factor);              ///< about the middle
     Camera camera() const;                 ///< of the present view
@@ -87,7 +96,7 @@ protected:
 
 private:
     void moveBody(const QMouseEvent& event);
-    void letBody();
+    void letBody(quint64 now);  ///< in milliseconds, of the event
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -4,6 +4,7 @@
 /// slow down both.
 #include <QAbstractEventDispatcher>
 #include <QImage>
+#include <QMouseEvent>
 #include <QPainter>
 #include <QTest>
 #include <QTimer>
@@ -18,6 +19,9 @@
 #include "tests/ui/window.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/theme_switch.hpp"
+#include "ui/stage/stage_player.hpp"
+#include "ui/stage/stage_widget.hpp"
+#include "ui/workspace/playback.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal::heartbeat_test {
@@ -169,6 +173,57 @@ private slots:
             for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();
             return longestOf([&] { QVERIFY(window_->open(preset)); });
         }));
+    }
+    /// 30 turns a second while a body is dragged: each turn, with the plots and the stage that follow, takes
+    /// a thirtieth of a second of processor time on average, and none longer than any other turn may.
+    void aDraggedBodyIsFollowed() {
+        constexpr int moves = 60;
+        constexpr double frame = 1.0 / 30;
+        QVERIFY(window_->open("preset:spring-pendulum"));
+        QVERIFY(waitForResults(*window_));
+        window_->playback().setTime(window_->playback().start());
+        for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();
+        StageWidget& stage = *window_->compareView().stage();
+        const StagePlayer player(window_->runControl().results());
+        const auto grip = player.gripAt(window_->playback().start(), stage.camera(), 0, 0, 1e9);
+        QVERIFY(grip);
+        const Point seen = stage.camera().project(grip->place);
+        const QPointF from(stage.width() / 2.0 + seen[0], stage.height() / 2.0 - seen[1]);
+        const auto send = [&](QEvent::Type type, QPointF place, Qt::MouseButton button,
+                              Qt::MouseButtons held) {
+            QMouseEvent event(type, place, stage.mapToGlobal(place), button, held, {});
+            QCoreApplication::sendEvent(&stage, &event);
+        };
+        double mean = 0, longest = 0;
+        bool isSmooth = false;
+        for (int round = 0; round < 3 && !isSmooth; ++round) {
+            paintingNow_ = secondsOfPainting();
+            const long long made = window_->compareView().figuresMade();
+            send(QEvent::MouseButtonPress, from, Qt::LeftButton, Qt::LeftButton);
+            send(QEvent::MouseMove, from - QPointF(2, 0), Qt::NoButton, Qt::LeftButton);
+            QVERIFY(QTest::qWaitFor([&] { return window_->compareView().isPreviewing(); }));
+            Heartbeat heart;
+            const double start = threadSeconds();
+            for (int i = 1; i <= moves; ++i) {
+                send(QEvent::MouseMove, from - QPointF(2 + i, 0.5 * i), Qt::NoButton, Qt::LeftButton);
+                QTest::qWait(33);
+            }
+            heart.beat();
+            mean = (threadSeconds() - start) / moves;
+            longest = heart.longest;
+            send(QEvent::MouseButtonRelease, from - QPointF(2 + moves, 0.5 * moves), Qt::LeftButton,
+                 Qt::NoButton);
+            QVERIFY(QTest::qWaitFor([&] { return waitForResults(*window_); }, 120000));
+            paintingNow_ = std::max(paintingNow_, secondsOfPainting());
+            const double slower = std::max(1.0, paintingNow_ / painting);
+            isSmooth = mean < frame * slower && longest < allowed();
+            qInfo("%.1f ms of %.1f ms a turn, %.0f ms at most, %lld figures", 1e3 * mean,
+                  1e3 * frame * slower, 1e3 * longest, window_->compareView().figuresMade() - made);
+            QVERIFY(window_->compareView().figuresMade() > made + 10);
+            window_->workspace().undo();
+            QVERIFY(waitForResults(*window_));
+        }
+        QVERIFY(isSmooth);
     }
     /// Checking this scene takes longer than a turn may.
     void itAnswersWhileAnEditIsChecked() {

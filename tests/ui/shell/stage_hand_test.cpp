@@ -48,14 +48,18 @@ class StageHandTest : public QObject {
             QTest::mousePress(&stage(), Qt::LeftButton, keys, from);
             for (int i = 1; i <= 5; ++i) move(from + (to - from) * i / 5, keys);
         }
-        void move(QPoint to, Qt::KeyboardModifiers keys = {}) {
+        void move(QPoint to, Qt::KeyboardModifiers keys = {}, quint64 ms = 0) {
             QMouseEvent event(QEvent::MouseMove, to, stage().mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
                               keys);
+            event.setTimestamp(ms);
             QCoreApplication::sendEvent(&stage(), &event);
         }
-        void let(QPoint at) {
-            QTest::qWait(150);  // a hand at rest throws nothing
-            QTest::mouseRelease(&stage(), Qt::LeftButton, {}, at);
+        /// The time is that of the events: a hand at rest throws nothing.
+        void let(QPoint at, quint64 ms = 1000) {
+            QMouseEvent event(QEvent::MouseButtonRelease, at, stage().mapToGlobal(at), Qt::LeftButton,
+                              Qt::NoButton, {});
+            event.setTimestamp(ms);
+            QCoreApplication::sendEvent(&stage(), &event);
         }
         double number(const char* pointer) { return valueAt(workspace().document(), pointer)->asNumber(); }
         bool isPreviewing() { return compareView().isPreviewing(); }
@@ -110,6 +114,39 @@ private slots:
         QVERIFY(window.number("/initial/v/1") > 0);
         QVERIFY(wanted > 0);
         QVERIFY(std::abs(window.number("/initial/q/0") - place[0]) < 1e-9);
+    }
+    /// 12 pixels in each 10 ms, upwards; however long it takes to deal with the events.
+    void aThrowGivesTheVelocityOfThePointer() {
+        Window window("kepler");
+        const QPoint from = window.onStage(window.body(0));
+        const double pixels = window.camera().pixelsPerUnit;
+        QTest::mousePress(&window.stage(), Qt::LeftButton, {}, from);
+        for (int i = 1; i <= 8; ++i)
+            window.move(from - QPoint(0, 12 * i), {}, static_cast<quint64>(5000 + 10 * i));
+        window.let(from - QPoint(0, 96), 5080);
+        const double second = (window.playback().end() - window.playback().start()) / 12;
+        QVERIFY(valueAt(window.workspace().document(), "/initial/v"));
+        const double thrown = window.number("/initial/v/1"), expected = 1200 / pixels / second;
+        QVERIFY2(std::abs(thrown / expected - 1) < 0.02,
+                 qPrintable(QString("%1 of %2").arg(thrown).arg(expected)));
+        QVERIFY(std::abs(window.number("/initial/v/0")) < 1e-9);
+    }
+    void besideTheOthersABodyIsTakenInItsPlace() {
+        Window window("kepler");
+        window.compareView().toggleSideBySide();
+        QVERIFY(window.stage().isSideBySide());
+        const StagePlayer player(window.runControl().results());
+        const StageTiling tiling =
+            player.tilingFor(window.stage().width(), window.stage().height() - 20, Camera{});
+        QVERIFY(tiling.columns * tiling.rows >=
+                static_cast<int>(window.runControl().results()->schemes.size()));
+        const Point place = window.body(0), by = tiling.offset(1);
+        const QPoint from = window.onStage({place[0] + by[0], place[1] + by[1], 0});
+        const QPoint to = window.onStage({place[0] + by[0] + 0.1, place[1] + by[1], 0});
+        window.drag(from, to);
+        window.let(to);
+        QVERIFY2(std::abs(window.number("/initial/q/0") - place[0] - 0.1) < 0.03,
+                 qPrintable(QString::number(window.number("/initial/q/0"))));
     }
     void aMechanismIsDraggedAlongItsRods() {
         Window window("double-pendulum-rods");
