@@ -53,7 +53,31 @@ std::vector<CardLayout::Row> CardLayout::rows(int width) const {
     std::vector<Row> all = rows(width, leastPlot);
     int height = -gap;
     for (const Row& row : all) height += row.height + gap;
-    return sight_ > 0 && height > sight_ ? rows(width, easyPlot) : all;
+    if (sight_ <= 0 || height <= sight_) return all;
+    all = rows(width, easyPlot);
+    fillSight(all);
+    return all;
+}
+
+/// The rows that can be seen whole share what is left of the sight; squares keep their shape.
+void CardLayout::fillSight(std::vector<Row>& rows) const {
+    constexpr int ofStage = 3, ofPlots = 1;
+    const auto shareOf = [](const Row& row) {
+        return row.hasStage ? ofStage : row.squares > 0 ? 0 : ofPlots;
+    };
+    int used = -gap, shares = 0;
+    std::size_t count = 0;
+    for (; count < rows.size() && used + gap + rows[count].height <= sight_; ++count) {
+        used += gap + rows[count].height;
+        shares += shareOf(rows[count]);
+    }
+    int left = sight_ - used;
+    for (std::size_t i = 0; i < count && shares > 0; ++i) {
+        const int share = shareOf(rows[i]), more = left * share / shares;
+        rows[i].height += more;
+        left -= more;
+        shares -= share;
+    }
 }
 
 std::vector<CardLayout::Row> CardLayout::rows(int width, int plotHeight) const {

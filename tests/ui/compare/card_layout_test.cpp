@@ -4,6 +4,8 @@
 
 #include <QTest>
 
+#include <algorithm>
+
 #include "tests/tools/test.hpp"
 
 namespace extremal::card_layout_test {
@@ -11,6 +13,30 @@ namespace extremal::card_layout_test {
 class CardLayoutTest : public QObject {
     Q_OBJECT
 private slots:
+    void theRowsInSightAreWhole() {
+        QWidget page;
+        auto* layout = new CardLayout(&page);
+        layout->setContentsMargins(0, 0, 0, 0);
+        layout->setColumns(2);
+        layout->addCard(new QWidget(&page), CardShape::stage);
+        for (int i = 0; i < 9; ++i) layout->addCard(new QWidget(&page), CardShape::plot);
+        for (const int sight : {520, 610, 765}) {
+            layout->setSight(sight);
+            const int all = layout->heightForWidth(900);
+            QVERIFY(all > sight);
+            layout->setGeometry({0, 0, 900, all});
+            int stage = 0, last = 0;
+            for (int i = 0; i < layout->count(); ++i) {
+                const QRect card = layout->itemAt(i)->geometry();
+                if (i == 0) stage = card.height();
+                if (card.bottom() < sight) last = std::max(last, card.bottom() + 1);
+                QVERIFY2(card.bottom() < sight || card.top() >= sight, "a row is cut");
+                QVERIFY(i == 0 || card.height() >= 200);
+            }
+            QCOMPARE(last, sight);
+            QVERIFY2(stage * 5 >= sight * 2 || sight > 700, qPrintable(QString::number(stage)));
+        }
+    }
     void rowsThatScrollAreHigher() {
         QWidget page;
         auto* layout = new CardLayout(&page);
