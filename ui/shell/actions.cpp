@@ -119,6 +119,26 @@ QLineEdit* fieldOf(QWidget& widget) {
 
 }  // namespace
 
+namespace {
+
+/// Whether a field needs a key with Ctrl or Alt for itself: the clipboard, and the words of its text.
+/// Toolkits give fields more of them (Ctrl+K, Ctrl+U, Ctrl+E delete and move by lines), which are the
+/// window's here.
+bool belongsToText(const QKeyEvent& key) {
+    for (const QKeySequence::StandardKey standard :
+         {QKeySequence::Copy, QKeySequence::Cut, QKeySequence::Paste, QKeySequence::SelectAll})
+        if (key.matches(standard)) return true;
+    // AltGr types letters, and is Ctrl+Alt on some platforms.
+    const bool isTyped = (key.modifiers() & Qt::ControlModifier) && (key.modifiers() & Qt::AltModifier) &&
+                         !key.text().isEmpty() && key.text().at(0).isPrint();
+    const bool isByWords =
+        (key.modifiers() & Qt::ControlModifier) && !(key.modifiers() & Qt::AltModifier) &&
+        (isArrow(key.key()) || key.key() == Qt::Key_Backspace || key.key() == Qt::Key_Delete);
+    return isTyped || isByWords;
+}
+
+}  // namespace
+
 /// True: the key is not offered to the window. An event that is ignored and not passed on goes to the window.
 bool KeyGuard::overridesShortcut(QWidget& widget, QKeyEvent& key) {
     const QLineEdit* const field = fieldOf(widget);
@@ -130,6 +150,11 @@ bool KeyGuard::overridesShortcut(QWidget& widget, QKeyEvent& key) {
             : isUndo ? text->document()->isUndoAvailable()
                      : text->document()->isRedoAvailable();
         key.setAccepted(isOwn);
+        return true;
+    }
+    const bool isOfKeys = key.modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier);
+    if ((field || text) && isOfKeys && !belongsToText(key)) {
+        key.ignore();
         return true;
     }
     const bool isPlain = !(key.modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier));
