@@ -314,6 +314,7 @@ void finishFigure(Figure& figure, const FigureContext& context, std::string_view
         else
             figure.message = context.comparison.isFinished ? "Nothing to show" : "No values yet";
     }
+    if (isEmpty(figure)) figure.axes = AxisStyle::none;  // ticks of nothing would be invented
     figure.summary = std::string(what);
     figure.summary += hasPoints ? extremesText(figure) : ": " + figure.message;
     for (const EventMarks& m : figure.all<EventMarks>()) figure.summary += "; " + m.label + ", " + m.text;
