@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QPainter>
 #include <QPointer>
+#include <QPushButton>
 #include <QRegularExpression>
 #include <QVBoxLayout>
 
@@ -33,10 +34,29 @@ DiscretizerCell::DiscretizerCell(ChoiceGrid::Cell choice, const Properties& know
     const QString title = QString::fromStdString(choice_.title);
     setAccessibleName(title.at(0).toUpper() + title.mid(1));
     about_ = textAbout(known);
+    words_ = wordsOf(known);
     setAccessibleDescription(QString(about_).replace("<br>", "; ").remove(QRegularExpression("<[^>]*>")));
     setFocusPolicy(Qt::TabFocus);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     setCursor(isPossible ? Qt::PointingHandCursor : Qt::ArrowCursor);
+}
+
+/// By its rule where it has nodes, else by the name of the scheme.
+QString DiscretizerCell::wordsOf(const Properties& known) const {
+    if (!isEnabled() || known.claims.order <= 0) return {};
+    const Settings& rule = quadrature();
+    const Value* const nodes = rule.find("nodes");
+    QString name;
+    if (nodes && nodes->isNumber() && !choice_.isOwn)
+        name = ruleTitle(rule.type) + ' ' + QString::number(rule.integer("nodes"));
+    else
+        name = QString::fromStdString(known.knownAs);
+    return name.isEmpty() ? QString() : tr("%1, order %2").arg(name).arg(known.claims.order);
+}
+
+void DiscretizerCell::setCost(std::optional<CellCost> cost) {
+    cost_ = std::move(cost);
+    update();
 }
 
 QString DiscretizerCell::textAbout(const Properties& known) const {
@@ -107,6 +127,15 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     const bool isOn = use_ == Use::on;
     const QColor own = theme_->series(style_).color;
     QColor ground = isOn ? theme_->ground(own) : theme_->field;
+    if (cost_ &&
+        !isOn) {  // darker the cheaper, down to a hundredth of the cost of the dearest that is told apart
+        constexpr double range = 100;
+        constexpr int faint = 6, full = 52;
+        const double share =
+            cost_->seconds > 0 ? 1 - std::log(std::max(1.0, cost_->times)) / std::log(range) : -1;
+        ground = share < 0 ? theme_->panel
+                           : theme_->pale(theme_->accent, faint + static_cast<int>((full - faint) * share));
+    }
     if (!isEnabled()) ground = Qt::transparent;
     if (isEnabled() && underMouse() && !isOn) ground = theme_->selection;
     painter.setPen(hasFocus()         ? QPen(theme_->accent, 1.5)
@@ -118,6 +147,20 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
         painter.setPen(QPen(theme_->line, 1));
         painter.drawLine(QPointF(box.center().x() - 3, box.center().y()),
                          QPointF(box.center().x() + 3, box.center().y()));
+        return;
+    }
+    paintText(painter, isOn                             ? theme_->onAccent
+                       : cost_ && !(cost_->seconds > 0) ? theme_->muted
+                                                        : theme_->text);
+}
+
+/// In words, where there is room for them.
+void DiscretizerCell::paintText(QPainter& painter, const QColor& colour) const {
+    const QFontMetricsF plain(theme_->body());
+    if (!words_.isEmpty() && plain.horizontalAdvance(words_) <= width() - 8) {
+        painter.setPen(colour);
+        painter.setFont(theme_->body());
+        painter.drawText(rect(), Qt::AlignCenter, words_);
         return;
     }
     const QString name = QString::fromStdString(choice_.text),
@@ -132,7 +175,7 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     if (!hasRoom) orderWidth = 0;
     const double left = (width() - metrics.horizontalAdvance(name) - orderWidth) / 2;
     const double baseline = (height() + metrics.capHeight()) / 2;
-    painter.setPen(isOn ? theme_->onAccent : theme_->text);
+    painter.setPen(colour);
     painter.setFont(font);
     painter.drawText(QPointF(left, baseline), name);
     painter.setFont(small);
@@ -141,6 +184,14 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
 
 Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
     : Card(tr("Discretizer"), parent), workspace_(workspace) {
+    costs_ = new QPushButton(tr("Costs"));
+    costs_->setObjectName("cellCosts");
+    costs_->setCheckable(true);
+    costs_->setFocusPolicy(Qt::TabFocus);
+    costs_->setToolTip(
+        tr("Measures what the wanted error costs with each cell, and shades them: the darker the "
+           "cheaper (Ctrl+Shift+D)"));
+    header()->addWidget(costs_);
     room_ = new SidewaysArea;
     body()->addWidget(room_);
     about_ = makeLabel({}, "caption");
@@ -160,10 +211,18 @@ Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
 }
 
 void Discretizer::showAbout(const DiscretizerCell* cell) {
+    const QString cost = cell && cell->cost() ? "<br>" + cell->cost()->words.toHtmlEscaped() : QString();
     about_->setText(
-        cell ? cell->about()
-             : tr("Point at a cell: what it is, its order and what it keeps. A click adds it to the "
-                  "comparison."));
+        cell ? cell->about() + cost
+        : !strip_.isEmpty()
+            ? strip_
+            : tr("Point at a cell: what it is, its order and what it keeps. A click adds it to the "
+                 "comparison."));
+}
+
+void Discretizer::setStripText(const QString& text) {
+    strip_ = text.toHtmlEscaped();
+    showAbout(nullptr);
 }
 
 bool Discretizer::isCurrent() const {
@@ -223,6 +282,7 @@ void Discretizer::fill() {
     room_->setWidget(grid_);
     showAbout(nullptr);
     setSubtitle(offered_.empty() ? QString() : QString::fromStdString(offered_.front().choices.subtitle));
+    emit filled();
 }
 
 void Discretizer::addGrid(const DescribedGrid& offered, QGridLayout& grid) {

@@ -2,13 +2,15 @@
 /// The discretizer: what each family of the model offers side by side (family/choices.hpp), usually function
 /// spaces as rows and quadratures as columns, and one's own functions and nodes last. A cell says which
 /// scheme the discretization is and its order; a click adds it to the comparison. Unsupported combinations
-/// are grey. A strip below the cells says what the one is that is pointed at, or why it is not a scheme;
-/// cells in use have the colour of their scheme.
+/// are grey. A strip below the cells, which stays in sight, says what the one is that is pointed at, or why
+/// it is not a scheme; cells in use have the colour of their scheme. Where the cells are wide they are named
+/// in words. Once it has been measured what the wanted error costs with each, the cheap ones are darker.
 #pragma once
 
 #include <QAbstractButton>
 #include <QTimer>
 
+#include <optional>
 #include <vector>
 
 #include "engine/family/choices.hpp"
@@ -17,12 +19,20 @@
 
 class QGridLayout;
 class QLabel;
+class QPushButton;
 
 namespace extremal {
 
 struct Theme;
 class SidewaysArea;
 class Workspace;
+
+/// What the wanted error costs with a cell.
+struct CellCost {
+    double seconds = 0;  ///< 0: not reached
+    double times = 0;    ///< over the cheapest cell
+    QString words;       ///< for the strip
+};
 
 /// One cell: a discretization.
 class DiscretizerCell : public QAbstractButton {
@@ -39,6 +49,11 @@ public:
     enum class Use { none, off, on };
     void setUse(Use use, int style);
     Use use() const { return use_; }
+    /// Its ground becomes darker the cheaper it is; nothing: not measured.
+    void setCost(std::optional<CellCost> cost);
+    const std::optional<CellCost>& cost() const { return cost_; }
+    /// "Gauss 2, order 4".
+    const QString& words() const { return words_; }
     /// What there is to say of it, as rich text: name, order, properties, or why it is not a scheme.
     const QString& about() const { return about_; }
     QSize sizeHint() const override { return {34, 23}; }
@@ -52,10 +67,13 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
+    void paintText(QPainter& painter, const QColor& colour) const;
+    QString wordsOf(const Properties& known) const;
     QString textAbout(const Properties& known) const;
 
     ChoiceGrid::Cell choice_;
-    QString about_;
+    QString about_, words_;
+    std::optional<CellCost> cost_;
     Use use_ = Use::none;
     int style_ = 0;
     const Theme* theme_ = nullptr;
@@ -69,8 +87,14 @@ public:
     DiscretizerCell* cell(int degree, const QString& rule) const;
     /// Whether the cells are those of the scene's model; they are looked for in the background.
     bool isCurrent() const;
+    const std::vector<DiscretizerCell*>& cells() const { return cells_; }
+    /// Switches the shading by costs on or off; pressed by the user, it tells costsWanted().
+    QPushButton& costs() const { return *costs_; }
+    /// What the strip says while no cell is pointed at, in place of the usual words; empty: those.
+    void setStripText(const QString& text);
 
 signals:
+    void filled();  ///< with other cells
     /// A cell of one's own functions or nodes was clicked, and its scheme is selected: they are to be typed.
     void ownChosen();
 
@@ -93,6 +117,8 @@ private:
     SidewaysArea* room_;  ///< with large letters the columns need more than a narrow panel has
     QWidget* grid_ = nullptr;
     QLabel* about_;  ///< of the cell that is pointed at
+    QPushButton* costs_;
+    QString strip_;
     const Theme* theme_ = nullptr;
 };
 

@@ -4,13 +4,14 @@
 #include <QResizeEvent>
 #include <QScrollBar>
 
+#include <algorithm>
+
 namespace extremal {
 
 SidewaysArea::SidewaysArea(QWidget* parent) : QScrollArea(parent) {
     setWidgetResizable(true);
     setFrameShape(QFrame::NoFrame);
-    setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
     setFocusPolicy(Qt::NoFocus);
 }
 
@@ -24,7 +25,10 @@ QSize SidewaysArea::sizeHint() const {
     return {widget() ? widget()->sizeHint().width() : 0, contentHeight()};
 }
 
-QSize SidewaysArea::minimumSizeHint() const { return {0, contentHeight()}; }
+QSize SidewaysArea::minimumSizeHint() const {
+    constexpr int some = 120;  // rows that tell what it is
+    return {0, std::min(some, contentHeight())};
+}
 
 bool SidewaysArea::eventFilter(QObject* watched, QEvent* event) {
     if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Shows its content at full height and scrolls it sideways where it is too wide.
+/// Shows its content at full height where there is room for it, and scrolls it where it is too wide or too
+/// high.
 #pragma once
 
 #include <QScrollArea>

@@ -328,12 +328,19 @@ void MainWindow::shareWidth() {
     const int wanted = scaled(280), centre = std::max(264, scaled(209)),
               left = std::clamp(width() - scaled(208) - centre - frame, leastPanel, wanted);
     left_->setHorizontalScrollBarPolicy(left < wanted ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
-    left_->setMinimumWidth(left);
+    leftPanel_->setMinimumWidth(left);
     schemes_->setMinimumWidth(scaled(208));
-    const int side =
-        left_->isHidden() ? 0 : std::clamp(width() * 18 / 100, left, std::max(left, scaled(300)));
+    const int usual = std::clamp(width() * 18 / 100, left, std::max(left, scaled(300)));
+    const int wide = std::max(usual, width() * 55 / 100);  // room for words in the cells of the discretizer
+    const int side = leftPanel_->isHidden() ? 0 : isDiscretizerWide_ ? wide : usual;
     const int right = schemes_->isHidden() ? 0 : std::clamp(width() * 19 / 100, scaled(208), scaled(310));
     splitter_->setSizes({side, width() - side - right - frame, right});
+}
+
+void MainWindow::toggleWideDiscretizer() {
+    isDiscretizerWide_ = !isDiscretizerWide_;
+    if (isDiscretizerWide_ && leftPanel_->isHidden()) actions_->find("scenePanel")->trigger();
+    shareWidth();
 }
 
 }  // namespace extremal

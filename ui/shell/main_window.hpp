@@ -28,6 +28,7 @@ class Actions;
 class Autosave;
 class BackgroundSweep;
 class CompareView;
+class CellCosts;
 class CopiesWindow;
 class Discretizer;
 struct ExportParts;
@@ -81,6 +82,7 @@ public:
     Notices& notices() { return *notices_; }
     StudyPage& studies() { return *studies_; }
     NeedsCard& needs() { return *needs_; }
+    CellCosts& cellCosts() { return *cellCosts_; }
     Wanted& wanted() { return *wanted_; }
     ThemeSwitch& themeSwitch() { return *themeSwitch_; }
 
@@ -125,6 +127,7 @@ private:
     void playWhenOpened();
     void startFromCursor();
     void shareWidth();
+    void toggleWideDiscretizer();
     bool isSceneInSight() const;
     void showStartPage();
     void showWork();
@@ -177,6 +180,7 @@ private:
     CompareView* compare_;
     LessonBar* lesson_;
     Discretizer* discretizer_;
+    CellCosts* cellCosts_;
     SchemeList* schemes_;
     HeaderBar* header_;
     StartPage* startPage_;
@@ -196,7 +200,9 @@ private:
     QStackedWidget* pages_;  ///< Compare, Notes, Studies
     QTabBar* tabs_;
     QSplitter* splitter_;
-    QScrollArea* left_;  ///< the panel of the scene
+    QWidget* leftPanel_;  ///< the scene, and the discretizer below it
+    QScrollArea* left_;   ///< the scene
+    bool isDiscretizerWide_ = false;
     TextView* notes_;
     QString shownNotes_;                               ///< their source
     QPointer<QWidget> focusBefore_;                    ///< what the start page has taken the focus from

@@ -31,6 +31,7 @@
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/start_page.hpp"
 #include "ui/stage/stage_widget.hpp"
+#include "ui/study/cell_costs.hpp"
 #include "ui/study/needs_card.hpp"
 #include "ui/study/study_page.hpp"
 #include "ui/windows/about.hpp"
@@ -272,6 +273,9 @@ void MainWindow::addViewActions() {
                   [this] { showPalette(); });
     actions_->add("fit", menu, tr("Fit all"), {QKeySequence(Qt::Key_A)}, [this] { compare_->fitAll(); });
     addStageActions(menu);
+    actions_->add(
+        "wideDiscretizer", menu, tr("Wide or narrow discretizer"), {QKeySequence(Qt::Key_G)},
+        [this] { toggleWideDiscretizer(); }, tr("With room for words in its cells, or as wide as usual"));
     actions_->add("values", menu, tr("Values at the cursor"), {QKeySequence(Qt::Key_V)}, [this] {
         values_->setVisible(values_->isHidden());
         showValues();
@@ -346,7 +350,7 @@ void MainWindow::addLayoutActions(const QString& menu) {
         panel->setVisible(isShown);
         action->setChecked(isShown);
     };
-    addPanel("scenePanel", tr("Panel of the scene"), QKeySequence(Qt::Key_F7), left_);
+    addPanel("scenePanel", tr("Panel of the scene"), QKeySequence(Qt::Key_F7), leftPanel_);
     addPanel("schemesPanel", tr("Panel of the schemes"), QKeySequence(Qt::Key_F8), schemes_);
     actions_->addSeparator(menu);
 }
@@ -381,7 +385,7 @@ void MainWindow::addRunActions() {
     actions_->addSeparator(menu);
     actions_->add("restart", menu, tr("Compute again"), {QKeySequence(Qt::Key_R)}, [this] { run_->start(); });
     actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)}, [this] {
-        if (needs_->stop()) return;
+        if (needs_->stop() || cellCosts_->stop()) return;
         if (studies_->isVisible() && studies_->stop()) return;
         if (compare_->restore()) return;
         if (!run_->isRunning()) workspace_->selectScheme(-1);
@@ -435,6 +439,10 @@ void MainWindow::addStudyActions() {
             needs_->measure();
         },
         tr("For each error the cheapest model and scheme: what may be left out, and what it saves"));
+    actions_->add(
+        "cellCosts", menu, tr("Costs of the discretizer's cells"),
+        {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_D)}, [this] { cellCosts_->toggle(); },
+        tr("Shades the cells by what the wanted error costs with each, as measured"));
     actions_->add(
         "race", menu, tr("Race"), {QKeySequence(Qt::Key_F9)},
         [this] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What the main window consists of: the bar at the top, and below it either the start page or the work page
 /// with the scene on the left, plots and studies in the middle, and the schemes on the right.
+#include <QEvent>
 #include <QLabel>
 #include <QScrollArea>
 #include <QSplitter>
@@ -26,6 +27,7 @@
 #include "ui/shell/start_page.hpp"
 #include "ui/shell/timeline.hpp"
 #include "ui/study/background_sweep.hpp"
+#include "ui/study/cell_costs.hpp"
 #include "ui/study/needs_card.hpp"
 #include "ui/study/study_page.hpp"
 #include "ui/text/text_view.hpp"
@@ -36,6 +38,59 @@
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
+namespace {
+
+/// As high as what is in it, where there is room.
+class SceneArea : public QScrollArea {
+public:
+    QSize sizeHint() const override { return widget() ? widget()->sizeHint() : QScrollArea::sizeHint(); }
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override {
+        if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
+        return QScrollArea::eventFilter(watched, event);
+    }
+};
+
+/// Two that share the height: what is above has what it needs as long as the other keeps a bit more than
+/// half, and each scrolls by itself.
+class SharedPanel : public QWidget {
+public:
+    SharedPanel(QWidget& above, QWidget& below) : above_(above), below_(below) {
+        above_.setParent(this);
+        below_.setParent(this);
+    }
+    QSize sizeHint() const override {
+        return {std::max(above_.sizeHint().width(), below_.sizeHint().width()),
+                above_.sizeHint().height() + gap + below_.sizeHint().height()};
+    }
+    QSize minimumSizeHint() const override {
+        constexpr int least = 300;
+        return {0, least};
+    }
+
+protected:
+    void resizeEvent(QResizeEvent*) override { share(); }
+    bool event(QEvent* event) override {
+        if (event->type() == QEvent::LayoutRequest) share();
+        return QWidget::event(event);
+    }
+
+private:
+    static constexpr int gap = 12;
+    void share() {
+        constexpr int percent = 55;
+        const int room = height() - gap, wanted = below_.hasHeightForWidth() ? below_.heightForWidth(width())
+                                                                             : below_.sizeHint().height();
+        const int below = std::min(wanted, std::max(room - above_.sizeHint().height(), room * percent / 100));
+        above_.setGeometry(0, 0, width(), room - below);
+        below_.setGeometry(0, room - below + gap, width(), below);
+    }
+    QWidget &above_, &below_;
+};
+
+}  // namespace
+
 void MainWindow::makePages() {
     auto* whole = new QWidget;
     auto* column = new QVBoxLayout(whole);
@@ -83,7 +138,7 @@ QWidget* MainWindow::makeWorkPage(BackgroundSweep& sweep) {
     splitter_ = new QSplitter;
     splitter_->setChildrenCollapsible(false);
     splitter_->setHandleWidth(12);
-    splitter_->addWidget(left_);
+    splitter_->addWidget(leftPanel_);
     splitter_->addWidget(centre);
     splitter_->addWidget(schemes_);
     splitter_->setStretchFactor(1, 1);
@@ -96,7 +151,7 @@ QWidget* MainWindow::makeWorkPage(BackgroundSweep& sweep) {
 }
 
 void MainWindow::makeSceneColumn() {
-    left_ = new QScrollArea;
+    left_ = new SceneArea;
     left_->setWidgetResizable(true);
     left_->setFrameShape(QFrame::NoFrame);
     left_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -109,9 +164,10 @@ void MainWindow::makeSceneColumn() {
     discretizer_->setTheme(theme_);
     connect(discretizer_, &Discretizer::ownChosen, this, &MainWindow::showOwn);
     column->addWidget(new ScenePanel(*workspace_));
-    column->addWidget(discretizer_);
     column->addStretch();
     left_->setWidget(inside);
+    leftPanel_ = new SharedPanel(*left_, *discretizer_);
+    cellCosts_ = new CellCosts(*workspace_, *wanted_, *discretizer_, this);
 }
 
 QWidget* MainWindow::makeCentre(BackgroundSweep& sweep) {

@@ -119,7 +119,7 @@ private slots:
         // The panel of the scene is as wide as its fields; a body in space, with vectors and their units, has
         // room for large letters from 1100 pixels on, and scrolls below.
         if (size.width() < 1024 || (preset.endsWith("satellite") && size.width() < 1100 && scale > 1)) return;
-        const auto* panel = qobject_cast<QScrollArea*>(splitter->widget(0));
+        const auto* panel = splitter->widget(0)->findChild<QScrollArea*>();
         QVERIFY(panel);
         QVERIFY2(panel->horizontalScrollBar()->maximum() == 0,
                  qPrintable(QString("%1 px too wide").arg(panel->horizontalScrollBar()->maximum())));
