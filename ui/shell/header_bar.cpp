@@ -2,7 +2,9 @@
 #include "ui/shell/header_bar.hpp"
 
 #include <QHBoxLayout>
+#include <QEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSignalBlocker>
 
@@ -38,7 +40,17 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSwee
     row->setSpacing(8);
     title_ = makeElidedLabel({}, "heading", this);
     file_ = makeLabel({}, "caption", this);
+    title_->setObjectName("title");
+    title_->setCursor(Qt::IBeamCursor);
+    title_->installEventFilter(this);
+    titleEdit_ = new QLineEdit(this);
+    titleEdit_->setObjectName("titleEdit");
+    titleEdit_->setAccessibleName(tr("Title of the scene"));
+    titleEdit_->setMinimumWidth(260);
+    titleEdit_->hide();
+    connect(titleEdit_, &QLineEdit::editingFinished, this, &HeaderBar::takeTitle);
     row->addWidget(title_);
+    row->addWidget(titleEdit_);
     row->addSpacing(6);
     row->addWidget(file_);
     row->addStretch(1);
@@ -105,6 +117,29 @@ void HeaderBar::resizeEvent(QResizeEvent* event) {
     const int narrow = 134 * fontMetrics().averageCharWidth();
     file_->setVisible(width() >= narrow);
     for (QPushButton* button : secondary_) button->setVisible(width() >= narrow);
+}
+
+/// A click on the title is where it is written.
+bool HeaderBar::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == title_ && event->type() == QEvent::MouseButtonRelease && isSceneInSight_) writeTitle();
+    return QWidget::eventFilter(watched, event);
+}
+
+void HeaderBar::writeTitle() {
+    titleEdit_->setText(QString::fromStdString(workspace_.scene().title));
+    title_->hide();
+    titleEdit_->show();
+    titleEdit_->setFocus();
+    titleEdit_->selectAll();
+}
+
+void HeaderBar::takeTitle() {
+    if (titleEdit_->isHidden()) return;
+    titleEdit_->hide();
+    title_->show();
+    const std::string text = titleEdit_->text().trimmed().toStdString();
+    if (workspace_.hasScene() && text != workspace_.scene().title)
+        workspace_.edit({{"/title", text}}, tr("Change the title"));
 }
 
 void HeaderBar::showScene() {

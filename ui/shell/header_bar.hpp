@@ -9,6 +9,7 @@
 
 class QHBoxLayout;
 class QLabel;
+class QLineEdit;
 class QPushButton;
 class QSlider;
 
@@ -37,8 +38,11 @@ signals:
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
+    void writeTitle();
+    void takeTitle();
     void makeWanted(QHBoxLayout& row);
     void makeButtons(QHBoxLayout& row);
     void showScene();
@@ -52,6 +56,7 @@ private:
     const BackgroundSweep& sweep_;
     Wanted& error_;
     QLabel *title_, *file_, *choice_;
+    QLineEdit* titleEdit_;                 ///< in its place after a click
     std::vector<QPushButton*> secondary_;  ///< which a narrow window does without
     QSlider* wanted_;
     QPushButton *runButton_, *use_;

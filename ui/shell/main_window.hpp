@@ -39,10 +39,12 @@ class LessonBar;
 class LogWindow;
 class NeedsCard;
 class Notices;
+class NotesPage;
 class OwnList;
 class OwnWindow;
 class PassportWindow;
 struct PaletteEntry;
+class RecordBar;
 class RaceWindow;
 class Playback;
 class RunControl;
@@ -82,6 +84,7 @@ public:
     Notices& notices() { return *notices_; }
     StudyPage& studies() { return *studies_; }
     NeedsCard& needs() { return *needs_; }
+    RecordBar& record() { return *record_; }
     CellCosts& cellCosts() { return *cellCosts_; }
     Wanted& wanted() { return *wanted_; }
     ThemeSwitch& themeSwitch() { return *themeSwitch_; }
@@ -179,6 +182,8 @@ private:
     Actions* actions_;
     CompareView* compare_;
     LessonBar* lesson_;
+    RecordBar* record_;
+    NotesPage* notesPage_;
     Discretizer* discretizer_;
     CellCosts* cellCosts_;
     SchemeList* schemes_;

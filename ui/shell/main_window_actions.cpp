@@ -29,6 +29,8 @@
 #include "ui/shell/actions.hpp"
 #include "ui/shell/lesson_bar.hpp"
 #include "ui/shell/main_window.hpp"
+#include "ui/shell/notes_page.hpp"
+#include "ui/shell/record_bar.hpp"
 #include "ui/shell/start_page.hpp"
 #include "ui/stage/stage_widget.hpp"
 #include "ui/study/cell_costs.hpp"
@@ -106,6 +108,11 @@ void MainWindow::addLessonActions() {
     actions_->add(
         "lesson", menu, tr("Start the lesson"), {QKeySequence(Qt::ALT | Qt::Key_L)},
         [this] { startLesson(); }, tr("What this scene teaches, step by step"));
+    actions_->add(
+        "recordLesson", menu, tr("Record a lesson"), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_L)},
+        [this] { record_->start(); }, tr("What you do becomes the steps of a lesson of this scene"));
+    actions_->add("recordStep", menu, tr("Record this step"), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_R)},
+                  [this] { record_->isRecording() ? record_->recordStep() : record_->start(); });
     actions_->add("lessonNext", menu, tr("Next step of the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Right)},
                   [this] { lesson_->next(); });
     actions_->add("lessonBack", menu, tr("Step back in the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Left)},
@@ -276,6 +283,13 @@ void MainWindow::addViewActions() {
     actions_->add(
         "wideDiscretizer", menu, tr("Wide or narrow discretizer"), {QKeySequence(Qt::Key_G)},
         [this] { toggleWideDiscretizer(); }, tr("With room for words in its cells, or as wide as usual"));
+    actions_->add(
+        "writeNotes", menu, tr("Write the notes"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_2)},
+        [this] {
+            tabs_->setCurrentIndex(1);
+            notesPage_->write();
+        },
+        tr("The notes of the scene as Markdown"));
     actions_->add("values", menu, tr("Values at the cursor"), {QKeySequence(Qt::Key_V)}, [this] {
         values_->setVisible(values_->isHidden());
         showValues();

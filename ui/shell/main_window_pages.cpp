@@ -20,10 +20,13 @@
 #include "ui/panels/scene_panel.hpp"
 #include "ui/panels/scheme_list.hpp"
 #include "ui/panels/values_table.hpp"
+#include "ui/plots/plot_widget.hpp"
 #include "ui/shell/banners.hpp"
 #include "ui/shell/header_bar.hpp"
 #include "ui/shell/lesson_bar.hpp"
 #include "ui/shell/main_window.hpp"
+#include "ui/shell/notes_page.hpp"
+#include "ui/shell/record_bar.hpp"
 #include "ui/shell/start_page.hpp"
 #include "ui/shell/timeline.hpp"
 #include "ui/study/background_sweep.hpp"
@@ -105,7 +108,7 @@ void MainWindow::makePages() {
                                        {discretizer_, "spaces"},
                                        {compare_, "observables"},
                                        {studies_, "studies"},
-                                       {notes_, "scenes"},
+                                       {notesPage_, "scenes"},
                                        {schemes_, "schemes"},
                                        {startPage_, "tour"}})
         widget->setProperty("help", page);  // of F1
@@ -183,6 +186,11 @@ QWidget* MainWindow::makeCentre(BackgroundSweep& sweep) {
     column->addWidget(new Banners(*notices_));
     lesson_ = new LessonBar(*workspace_, *playback_);
     column->addWidget(lesson_);
+    record_ = new RecordBar(*workspace_, *playback_, [this] {
+        const PlotWidget* const plot = compare_->currentPlot();
+        return plot ? plot->figure().view : std::string();
+    });
+    column->addWidget(record_);
     makeTabPages(sweep);
     column->addWidget(pages_, 1);
     timeline_ = new Timeline(*playback_);
@@ -210,9 +218,10 @@ void MainWindow::makeTabPages(BackgroundSweep& sweep) {
     notes_->setObjectName("notes");
     notes_->setAccessibleName(tr("Notes"));
     studies_ = new StudyPage(*workspace_, *wanted_, theme_);
+    notesPage_ = new NotesPage(*workspace_, notes_);
     pages_ = new QStackedWidget;
-    for (QWidget* page :
-         {static_cast<QWidget*>(compare_), static_cast<QWidget*>(notes_), static_cast<QWidget*>(studies_)})
+    for (QWidget* page : {static_cast<QWidget*>(compare_), static_cast<QWidget*>(notesPage_),
+                          static_cast<QWidget*>(studies_)})
         pages_->addWidget(page);
 }
 
