@@ -10,7 +10,7 @@
 #include "commit.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/libraries.hpp"
-#include "ui/stage/surface.hpp"
+#include "ui/stage/gl/surface.hpp"
 
 namespace extremal::app {
 namespace {

@@ -17,7 +17,7 @@
 #include "ui/pictures/image_compare.hpp"
 #include "ui/pictures/snapshot_page.hpp"
 #include "ui/plots/plot_renderer.hpp"
-#include "ui/stage/surface.hpp"
+#include "ui/stage/gl/surface.hpp"
 
 namespace extremal {
 namespace {

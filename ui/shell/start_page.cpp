@@ -21,7 +21,7 @@
 #include "ui/base/card.hpp"
 #include "ui/pictures/card_picture.hpp"
 #include "ui/shell/banners.hpp"
-#include "ui/stage/surface.hpp"
+#include "ui/stage/gl/surface.hpp"
 
 namespace extremal {
 

@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include "ui/stage/gl_widget_renderer.hpp"
+#include "ui/stage/gl/gl_widget_renderer.hpp"
 #include "ui/stage/stage_picture.hpp"
 
 namespace extremal {

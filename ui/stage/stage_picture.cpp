@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/stage/surface.hpp"
+#include "ui/stage/gl/surface.hpp"
 
 namespace extremal {
 

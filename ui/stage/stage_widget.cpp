@@ -18,7 +18,7 @@
 #include "ui/stage/stage_overlay.hpp"
 #include "ui/stage/stage_picture.hpp"
 #include "ui/stage/stage_player.hpp"
-#include "ui/stage/surface.hpp"
+#include "ui/stage/gl/surface.hpp"
 #include "ui/stage/tension_lines.hpp"
 
 namespace extremal {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/tools/test.hpp"
-#include "ui/stage/surface.hpp"
+#include "ui/stage/gl/surface.hpp"
 
 #include <QTest>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/stage/gl_functions.hpp"
+#include "ui/stage/gl/gl_functions.hpp"
 
 namespace extremal {
 namespace {

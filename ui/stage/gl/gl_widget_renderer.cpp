@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/stage/gl_widget_renderer.hpp"
+#include "ui/stage/gl/gl_widget_renderer.hpp"
 
-#include "ui/stage/gl_functions.hpp"
-#include "ui/stage/renderer.hpp"
+#include "ui/stage/gl/gl_functions.hpp"
+#include "ui/stage/gl/renderer.hpp"
 
 namespace extremal {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/stage/renderer.hpp"
+#include "ui/stage/gl/renderer.hpp"
 
-#include "ui/stage/gl_functions.hpp"
-#include "ui/stage/shaders.hpp"
+#include "ui/stage/gl/gl_functions.hpp"
+#include "ui/stage/gl/shaders.hpp"
 #include "ui/stage/strokes.hpp"
 
 #include <algorithm>

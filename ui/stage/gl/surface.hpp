@@ -12,8 +12,8 @@
 #include <string>
 
 #include "ui/stage/camera.hpp"
-#include "ui/stage/gl_functions.hpp"
-#include "ui/stage/renderer.hpp"
+#include "ui/stage/gl/gl_functions.hpp"
+#include "ui/stage/gl/renderer.hpp"
 #include "ui/stage/stage_frame.hpp"
 
 namespace extremal {

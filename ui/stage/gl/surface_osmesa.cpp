@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/stage/surface.hpp"
-#include "ui/stage/open_library.hpp"
+#include "ui/stage/gl/surface.hpp"
+#include "ui/stage/gl/open_library.hpp"
 
 #include <GL/osmesa.h>
 #include <dlfcn.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/stage/surface.hpp"
+#include "ui/stage/gl/surface.hpp"
 
 #include <algorithm>
 #include <cstdlib>
