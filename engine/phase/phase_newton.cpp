@@ -87,15 +87,15 @@ void PhaseNewton::assemble(double t, double h) {
     }
 }
 
-PhaseNewton::Result PhaseNewton::factorise() {
-    if (!matrix_.allFinite()) return Result::notFinite;
+Outcome PhaseNewton::factorise() {
+    if (!matrix_.allFinite()) return Outcome::notFinite;
     if (size() > small) {
         large_.compute(matrix_);
         const auto pivots = large_.matrixLU().diagonal().cwiseAbs();
-        return isRegular(pivots.minCoeff(), pivots.maxCoeff()) ? Result::converged : Result::singular;
+        return isRegular(pivots.minCoeff(), pivots.maxCoeff()) ? Outcome::converged : Outcome::singular;
     }
     for (int j = 0; j < size(); ++j) std::copy_n(matrix_.col(j).data(), size(), lu_.column(j));
-    return lu_.factorise() == SmallLu<double>::Result::regular ? Result::converged : Result::singular;
+    return lu_.factorise() == SmallLu<double>::Result::regular ? Outcome::converged : Outcome::singular;
 }
 
 void PhaseNewton::solveFor(double* x) {
@@ -131,14 +131,13 @@ void PhaseNewton::measure(double h, const Eigen::Ref<const Vector>& q0, const Ei
     }
 }
 
-PhaseNewton::Result PhaseNewton::solve(double t, double h, const Eigen::Ref<const Vector>& q0,
-                                       const Eigen::Ref<const Vector>& p0, double tolerance,
-                                       int maxIterations, const std::stop_token& stop, StepReport& report) {
-    using Verdict = NewtonPolicy<double>::Verdict;
+Outcome PhaseNewton::solve(double t, double h, const Eigen::Ref<const Vector>& q0,
+                           const Eigen::Ref<const Vector>& p0, double tolerance, int maxIterations,
+                           const std::stop_token& stop, StepReport& report) {
     const int m = cell_.unknowns(), n = d(), half = m * n;
     NewtonPolicy<double> policy(NewtonLimits<double>::elementStep(tolerance));
     for (int iteration = 0; iteration < maxIterations; ++iteration) {
-        if (stop.stop_requested()) return Result::stopped;
+        if (stop.stop_requested()) return Outcome::stopped;
         for (int i = 0; i < cell_.nodes(); ++i) {
             Q_.col(i) = q0;
             P_.col(i) = cell_.fromStart(i) * p0;
@@ -148,10 +147,10 @@ PhaseNewton::Result PhaseNewton::solve(double t, double h, const Eigen::Ref<cons
             }
         }
         residual(t, h);
-        if (!r_.allFinite()) return Result::notFinite;
+        if (!r_.allFinite()) return Outcome::notFinite;
         assemble(t, h);
         report.cost.evaluations += 2 * cell_.nodes();
-        if (const Result result = factorise(); result != Result::converged) return result;
+        if (const Outcome result = factorise(); result != Outcome::converged) return result;
         solveFor(r_.data());
         ++report.cost.linearSolves;
         ++report.cost.iterations;
@@ -160,12 +159,9 @@ PhaseNewton::Result PhaseNewton::solve(double t, double h, const Eigen::Ref<cons
         report.residual = size;
         x_ -= r_;
         policy.jacobianIsNew();
-        const Verdict verdict = policy.judge(size, floor);
-        if (verdict == Verdict::converged) return Result::converged;
-        if (verdict == Verdict::notFinite) return Result::notFinite;
-        if (verdict == Verdict::diverged) return Result::diverged;
+        if (const auto end = endOf(policy.judge(size, floor))) return *end;
     }
-    return Result::diverged;
+    return Outcome::diverged;
 }
 
 bool PhaseNewton::applyTangent(double t, double h, const Eigen::Ref<const Matrix>& Q,
@@ -174,7 +170,7 @@ bool PhaseNewton::applyTangent(double t, double h, const Eigen::Ref<const Matrix
     Q_ = Q.transpose();
     P_ = P.transpose();
     assemble(t, h);
-    if (factorise() != Result::converged) return false;
+    if (factorise() != Outcome::converged) return false;
     const auto columns = static_cast<Eigen::Index>(W.size()) / (2 * n);
     for (Eigen::Index j = 0; j < columns; ++j) {
         Eigen::Map<Vector> w(W.data() + j * 2 * n, 2 * n);

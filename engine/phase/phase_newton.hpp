@@ -26,15 +26,14 @@ class PhaseNewton {
 public:
     using Vector = Eigen::VectorXd;
     using Matrix = Eigen::MatrixXd;
-    enum class Result { converged, diverged, singular, notFinite, stopped };
 
     PhaseNewton(const PhaseMechanics& mechanics, const PhaseCell& cell);
 
     /// The unknowns that K and F at the nodes make.
     void startFrom(double h, const Eigen::Ref<const Matrix>& K, const Eigen::Ref<const Matrix>& F);
     /// Counts its work in the report.
-    Result solve(double t, double h, const Eigen::Ref<const Vector>& q0, const Eigen::Ref<const Vector>& p0,
-                 double tolerance, int maxIterations, const std::stop_token& stop, StepReport& report);
+    Outcome solve(double t, double h, const Eigen::Ref<const Vector>& q0, const Eigen::Ref<const Vector>& p0,
+                  double tolerance, int maxIterations, const std::stop_token& stop, StepReport& report);
     /// q and p at the nodes, node i, coordinate k.
     void place(const Eigen::Ref<const Vector>& q0, const Eigen::Ref<const Vector>& p0, Eigen::Ref<Matrix> Q,
                Eigen::Ref<Matrix> P) const;
@@ -52,7 +51,7 @@ private:
     void measure(double h, const Eigen::Ref<const Vector>& q0, const Eigen::Ref<const Vector>& p0,
                  double& size, double& floor) const;
     void assemble(double t, double h);
-    Result factorise();
+    Outcome factorise();
     void solveFor(double* x);
 
     PhaseMechanics H_;

@@ -133,28 +133,25 @@ public:
     }
 
 private:
-    enum class Attempt { solved, slow, notFinite, stopped };
-
     int d() const { return H_.dimension; }
     bool isSeparable() const { return H_.isSeparable(); }
 
     Outcome solve(bool isContinued) {
         if (policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
-            Attempt attempt = Attempt::slow;
+            Outcome attempt = Outcome::diverged;
             if (isContinued && cell_.ahead.size() > 0) {
                 newK_.noalias() = cell_.ahead.lazyProduct(K_);
                 newF_.noalias() = cell_.ahead.lazyProduct(F_);
                 attempt = iterate();
             }
             // What the last step says of this one may be of no use.
-            if (attempt == Attempt::slow || attempt == Attempt::notFinite) {
+            if (attempt == Outcome::diverged || attempt == Outcome::notFinite) {
                 startFresh();
                 attempt = iterate();
             }
-            if (attempt == Attempt::solved) return Outcome::converged;
-            if (attempt == Attempt::stopped) return Outcome::stopped;
-            if (policy_.method == SolverMethod::fixedPoint)
-                return attempt == Attempt::slow ? Outcome::diverged : Outcome::notFinite;
+            if (attempt == Outcome::converged || attempt == Outcome::stopped ||
+                policy_.method == SolverMethod::fixedPoint)
+                return attempt;
             newtonSteps_ = stepsWithNewton;
         }
         if (newtonSteps_ > 0) --newtonSteps_;
@@ -204,12 +201,12 @@ private:
     }
 
     /// From newK and newF, and back to K and F.
-    Attempt iterate() {
+    Outcome iterate() {
         using Verdict = FixedPointPolicy<double>::Verdict;
         constexpr int most = 200;
         FixedPointPolicy<double> policy(tolerance_);
         for (int sweep = 0; sweep < most; ++sweep) {
-            if (stop().stop_requested()) return Attempt::stopped;
+            if (stop().stop_requested()) return Outcome::stopped;
             K_.swap(newK_);
             F_.swap(newF_);
             placePlaces();
@@ -218,15 +215,15 @@ private:
             ++report_.cost.iterations;
             report_.residual = change();
             const Verdict verdict = policy.judge(report_.residual);
-            if (verdict == Verdict::notFinite) return Attempt::notFinite;
-            if (verdict == Verdict::slow) return Attempt::slow;
+            if (verdict == Verdict::notFinite) return Outcome::notFinite;
+            if (verdict == Verdict::slow) return Outcome::diverged;
             if (verdict == Verdict::converged) {
                 K_.swap(newK_);
                 F_.swap(newF_);
-                return Attempt::solved;
+                return Outcome::converged;
             }
         }
-        return Attempt::slow;
+        return Outcome::diverged;
     }
 
     /// What the last sweep has changed, each coordinate against its own increments and the round-off of its
@@ -248,7 +245,6 @@ private:
     }
 
     Outcome solveByNewton(bool isContinued) {
-        using Result = PhaseNewton::Result;
         const auto attempt = [&](double h, bool isFresh) {
             if (isFresh) {
                 startFresh();
@@ -256,34 +252,23 @@ private:
             }
             return newton_.solve(start_, h, q0_, p0_, tolerance_, policy_.maxIterations, stop(), report_);
         };
-        Result result = Result::diverged;
+        Outcome result = Outcome::diverged;
         if (isContinued && cell_.ahead.size() > 0) {
             newK_.noalias() = cell_.ahead.lazyProduct(K_);
             newF_.noalias() = cell_.ahead.lazyProduct(F_);
             newton_.startFrom(h_, newK_, newF_);
             result = attempt(h_, false);
         }
-        if (result != Result::converged && result != Result::stopped) result = attempt(h_, true);
-        if (result != Result::converged && result != Result::stopped) {
+        if (result != Outcome::converged && result != Outcome::stopped) result = attempt(h_, true);
+        if (result != Outcome::converged && result != Outcome::stopped) {
             StepContinuation<double> continuation;
             const bool hasArrived = continuation.follow(newton_.unknowns(), [&](double part, bool isFresh) {
-                return !stop().stop_requested() && attempt(part * h_, isFresh) == Result::converged;
+                return !stop().stop_requested() && attempt(part * h_, isFresh) == Outcome::converged;
             });
-            if (hasArrived) result = Result::converged;
+            if (hasArrived) result = Outcome::converged;
         }
-        if (stop().stop_requested() && result != Result::converged) return Outcome::stopped;
-        switch (result) {
-            case Result::stopped:
-                return Outcome::stopped;
-            case Result::singular:
-                return Outcome::singular;
-            case Result::notFinite:
-                return Outcome::notFinite;
-            case Result::diverged:
-                return Outcome::diverged;
-            case Result::converged:
-                break;
-        }
+        if (stop().stop_requested() && result != Outcome::converged) return Outcome::stopped;
+        if (result != Outcome::converged) return result;
         newton_.place(q0_, p0_, Q_, P_);
         evaluateNodes();
         K_.swap(newK_);
