@@ -128,7 +128,7 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     const QColor own = theme_->series(style_).color;
     QColor ground = isOn ? theme_->ground(own) : theme_->field;
     if (cost_ &&
-        !isOn) {  // darker the cheaper, down to a hundredth of the cost of the dearest that is told apart
+        !isOn) {  // stronger the cheaper, down to a hundredth of the cost of the dearest that is told apart
         constexpr double range = 100;
         constexpr int faint = 6, full = 52;
         const double share =
@@ -189,7 +189,7 @@ Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
     costs_->setCheckable(true);
     costs_->setFocusPolicy(Qt::TabFocus);
     costs_->setToolTip(
-        tr("Measures what the wanted error costs with each cell, and shades them: the darker the "
+        tr("Measures what the wanted error costs with each cell, and colours them: the stronger the "
            "cheaper (Ctrl+Shift+D)"));
     header()->addWidget(costs_);
     room_ = new SidewaysArea;

@@ -206,8 +206,8 @@ void CellCosts::take(const std::vector<std::optional<MeasuredCell>>& costs) {
     }
     discretizer_.setStripText(
         least > 0
-            ? tr("Shaded by what an error of %1 costs: from %2 (dark) to a hundred times that (pale); white: "
-                 "not reached. Point at a cell for its own.")
+            ? tr("Coloured by what an error of %1 costs: from %2 (strong) to a hundred times that (faint); "
+                 "without colour: not reached. Point at a cell for its own.")
                   .arg(error, shortTime(least))
             : tr("No cell reaches an error of %1.").arg(error));
 }
