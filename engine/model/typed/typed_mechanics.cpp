@@ -12,12 +12,10 @@
 #include <utility>
 
 #include "engine/core/algebra/instruction_set.hpp"
-#include "engine/core/algebra/lanes.hpp"
 #include "engine/core/dimension.hpp"
 #include "engine/model/typed/branches.hpp"
 #include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/symbolic.hpp"
-#include "engine/model/typed/tape.hpp"
 #include "engine/model/typed/tape_registers.hpp"
 #include "engine/model/typed/tape_run.hpp"
 
