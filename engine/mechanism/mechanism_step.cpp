@@ -340,11 +340,16 @@ private:
         return q1_.allFinite() && p1_.allFinite();
     }
 
+    /// A mechanism with buffers of its own, as those of the step are kept for what comes.
+    Mechanism& forMeasures() const {
+        if (!measured_) measured_.emplace(mechanism_);
+        return *measured_;
+    }
     /// Sums over the rule of the forces, on the curve of the last step.
     void measureForces(double* values) const {
         const Force& force = *mechanism_.force();
         const int d = dimension();
-        Mechanism mechanism = mechanism_;  // its buffers
+        Mechanism& mechanism = forMeasures();
         Vector node(2 * d), F(d);
         for (int i = 0; i < curve_.atForces.nodes(); ++i) {
             curve_.motionAt(curve_.atForces, z_, i, h_, node);
@@ -361,7 +366,7 @@ private:
     double workOfConstraints() const {
         if (!mechanism_.rolling() && !(mechanism_.constraint() && mechanism_.constraint()->isTimeDependent))
             return 0;
-        Mechanism mechanism = mechanism_;  // its buffers
+        Mechanism& mechanism = forMeasures();
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
         Vector q(d);
         double sum = 0;
@@ -385,6 +390,7 @@ private:
     Vector forces_;
     mutable Vector node_, gradient_;  ///< of dense output
     SaidOfForces said_;
+    mutable std::optional<Mechanism> measured_;
     std::optional<StepVariation> variation_;
     double start_ = 0, nearness_ = 0;
     StepReport report_;

@@ -219,7 +219,7 @@ private slots:
             QVERIFY(worst < 4e-15);
         }
     }
-    /// A symmetry of L that the constraint does not have is none of the mechanism; a wall gives momentum.
+    /// A symmetry that the constraint has not does not belong to the mechanism; a wall gives momentum.
     void onlySymmetriesOfConstraintsCount() {
         const System sphere = mechanism_test::sphericalPendulum().system,
                      ellipsoid =
