@@ -9,10 +9,10 @@
 #include <limits>
 #include <memory>
 
-#include "engine/core/algebra/exact_sum.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/observe/step_sum.hpp"
 
 namespace extremal::observables {
 
@@ -37,21 +37,15 @@ ObservableEntry balance() {
         o.readsQuantities = place.has_value();
         const EnergyFunction energy = energyOf(context.system);
         const double start = energy(context.initial.t, context.initial.x.data());
-        struct Sum {
-            double value = 0, lost = 0;  // of a sum of many small numbers
-        };
-        const auto sum = std::make_shared<Sum>();
+        const auto sum = std::make_shared<StepSum>();
         o.evaluate = [place, energy, start, sum](const NodeBlock& nodes, double* values, std::size_t stride) {
             for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
-                const double step =
-                    place ? nodes.quantities(i)[*place] : std::numeric_limits<double>::quiet_NaN();
-                if (!place || nodes.node(i) > 0)
-                    sum->value = addExactly(sum->value, step + sum->lost, sum->lost);
-                values[0] = sum->value;
-                values[1] = energy(nodes.t(i), nodes.x(i)) - start - sum->value;
+                values[0] = place ? sum->at(nodes, i, nodes.quantities(i)[*place])
+                                  : std::numeric_limits<double>::quiet_NaN();
+                values[1] = energy(nodes.t(i), nodes.x(i)) - start - values[0];
             }
         };
-        o.checkpoint = [sum](Archive& archive) { archive(sum->value, sum->lost); };
+        o.checkpoint = [sum](Archive& archive) { sum->checkpoint(archive); };
         return o;
     };
     return e;

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/algebra/exact_sum.hpp"
 #include "engine/mechanism/said_of_forces.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/symmetry/conserved.hpp"
+#include "engine/observe/step_sum.hpp"
 
 namespace extremal::observables {
 namespace {
@@ -26,7 +26,7 @@ public:
         : momenta_(std::move(momenta)),
           d_(static_cast<std::size_t>(context.system.dimension())),
           first_(context.quantity("impulse.0")),
-          sums_(std::make_shared<std::vector<Sum>>(momenta_.size())) {
+          sums_(std::make_shared<std::vector<StepSum>>(momenta_.size())) {
         for (const BalancedMomentum& each : momenta_)
             start_.push_back(each.momentum.value(context.initial.t, context.initial.x.data()));
     }
@@ -36,27 +36,20 @@ public:
         for (std::size_t node = 0; node < nodes.size(); ++node, values += stride) {
             double squares = 0;
             for (std::size_t k = 0; k < momenta_.size(); ++k) {
-                Sum& sum = (*sums_)[k];
-                if (!first_)
-                    sum.value = std::numeric_limits<double>::quiet_NaN();
-                else if (nodes.node(node) > 0)
-                    sum.value =
-                        addExactly(sum.value, given(k, nodes.quantities(node).data()) + sum.lost, sum.lost);
-                const double change = momenta_[k].momentum.value(nodes.t(node), nodes.x(node)) - start_[k];
-                values[k + 1] = change - sum.value;
+                const double sum = first_
+                                       ? (*sums_)[k].at(nodes, node, given(k, nodes.quantities(node).data()))
+                                       : std::numeric_limits<double>::quiet_NaN();
+                values[k + 1] = momenta_[k].momentum.value(nodes.t(node), nodes.x(node)) - start_[k] - sum;
                 squares += values[k + 1] * values[k + 1];
             }
             values[0] = std::sqrt(squares);
         }
     }
     void checkpoint(Archive& archive) {
-        for (Sum& sum : *sums_) archive(sum.value, sum.lost);
+        for (StepSum& sum : *sums_) sum.checkpoint(archive);
     }
 
 private:
-    struct Sum {
-        double value = 0, lost = 0;  // of a sum of many small numbers
-    };
     /// sum J . (A q + b + c t) over the impulses of a step.
     double given(std::size_t k, const double* quantities) const {
         const Symmetry& s = momenta_[k].symmetry;
@@ -74,7 +67,7 @@ private:
     std::size_t d_;
     std::optional<std::size_t> first_;
     std::vector<double> start_;
-    std::shared_ptr<std::vector<Sum>> sums_;
+    std::shared_ptr<std::vector<StepSum>> sums_;
 };
 
 }  // namespace

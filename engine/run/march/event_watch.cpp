@@ -110,11 +110,11 @@ EventWatch::Stop EventWatch::stopAt(const Integrator& integrator, const State& b
                                     const Met& found) {
     Met met = found;
     const double h = after.t - before.t;
-    std::optional<State> own;
+    std::optional<Stop> own;
     if (integrator.grid() == TimeGrid::fixed && met.tau < 1) own = ownStep(before, h, met);
     Stop stop{met.tau, after};
     if (own) {
-        stop.state = *std::move(own);
+        stop = *std::move(own);
     } else if (met.tau < 1) {
         stop.state.t = before.t + met.tau * h;
         integrator.denseOutput(met.tau, stop.state.x);
@@ -123,7 +123,7 @@ EventWatch::Stop EventWatch::stopAt(const Integrator& integrator, const State& b
     return stop;
 }
 
-std::optional<State> EventWatch::ownStep(const State& before, double h, Met& met) {
+std::optional<EventWatch::Stop> EventWatch::ownStep(const State& before, double h, Met& met) {
     constexpr int mostIterations = 30;
     // The integrals up to the beginning of the step: look() has gone on to its end.
     const std::size_t e = met.event;
@@ -133,18 +133,20 @@ std::optional<State> EventWatch::ownStep(const State& before, double h, Met& met
     std::swap(integrals_[e], own);
     State start = before;
     start.memory.clear();
-    std::optional<State> found;
+    std::optional<Stop> found;
     try {
         const auto scheme = make_(start);
         if (scheme->grid() == TimeGrid::fixed && scheme->memoryParts().empty()) {
             State s;
+            StepReport report;
             std::vector<double> inside(before.x.size());
             // The value at the end of a step of the length tau h.
             const auto value = [&](double tau) {
                 s = start;
                 scheme->setStep(tau * h);
                 scheme->begin(s);
-                if (scheme->advance(s, start.t + tau * h).outcome != Outcome::converged) return std::nan("");
+                report = scheme->advance(s, start.t + tau * h);
+                if (report.outcome != Outcome::converged) return std::nan("");
                 integrate(e, start.t, tau * h, 1, [&](double part) {
                     scheme->denseOutput(part, inside);
                     return inside.data();
@@ -164,7 +166,8 @@ std::optional<State> EventWatch::ownStep(const State& before, double h, Met& met
             // Only where it is the event that was found.
             if (std::abs(tau - last) < 1e-10 && std::abs(tau - met.tau) < 0.1 && std::isfinite(value(tau))) {
                 met.tau = std::min(tau, 1.0);
-                found = s;
+                found = Stop{met.tau, s, report, std::vector<double>(scheme->quantities().size())};
+                scheme->measure(s, found->quantities.data());
             }
         }
     } catch (const InvalidScene&) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -36,6 +37,20 @@ public:
     struct Stop {
         double tau;
         State state;
+        /// Of the step of the scheme itself that ends there; empty where it is a place of the dense output.
+        std::optional<StepReport> report = {};
+        std::vector<double> quantities = {};
+
+        /// As many as the run measures: those of the step that ends there, or nothing that is known, as the
+        /// whole step says nothing of its part.
+        std::vector<double> quantitiesFor(const std::vector<double>& ofWholeStep) const {
+            if (report && quantities.size() == ofWholeStep.size()) return quantities;
+            return std::vector<double>(ofWholeStep.size(), std::numeric_limits<double>::quiet_NaN());
+        }
+        template <class Archive>
+        void checkpoint(Archive& archive) {
+            archive(tau, state, report, quantities);
+        }
     };
     std::optional<Stop> look(const Integrator& integrator, const State& before, const State& after);
     void checkpoint(Archive& archive) { archive(last_, at_.x, integrals_); }
@@ -51,7 +66,7 @@ private:
     void findImpacts(const Integrator& integrator, const State& before, const State& after);
     Stop stopAt(const Integrator& integrator, const State& before, const State& after, const Met& met);
     /// The step of the scheme itself that ends at the event; nothing where it has none.
-    std::optional<State> ownStep(const State& before, double h, Met& met);
+    std::optional<Stop> ownStep(const State& before, double h, Met& met);
     void record(const State& at, const Met& met);
     double valueAt(std::size_t event, double t, const double* x) const {
         return functions_[event](t, x, integralsNow_);

@@ -53,10 +53,9 @@ struct Recording {
     long long nextMultiple = 1;  ///< of output.every, for dense rows
     std::vector<double> values, kept;
     DelayedRows delayed;
-    std::size_t stateWidth = 0;             ///< entries of the state that every row holds
-    std::vector<ExactSolution> references;  ///< of the observers that are given one
-    std::optional<State> stopped;           ///< where an event stopped the run, in its last step
-    double stoppedAt = 0;                   ///< the part of that step
+    std::size_t stateWidth = 0;               ///< entries of the state that every row holds
+    std::vector<ExactSolution> references;    ///< of the observers that are given one
+    std::optional<EventWatch::Stop> stopped;  ///< where an event stopped the run, in its last step
 
     Recording(const ResolvedScene& resolved, const ResolvedScheme& scheme_, const State& initial,
               const Reference& reference, const std::vector<std::string>& observe, double step_,

@@ -23,9 +23,8 @@ bool Recording::seeEvents(EventWatch& watch, const Stretch& stretch) {
     }
     auto end = watch.look(stretch.integrator, stretch.before, stretch.state);
     if (!end) return true;
-    stopped = std::move(end->state);
-    stopped->node = stretch.state.node;
-    stoppedAt = end->tau;
+    stopped = std::move(end);
+    stopped->state.node = stretch.state.node;
     return false;
 }
 
@@ -94,7 +93,7 @@ void Recording::nameUnknownNodes() {
 
 void Recording::checkpoint(Archive& archive, MarchReport& report, MotionCheck& motion) {
     archive(state, report, motion, sampler, frames, delayed, isLastNodeRow, nextMultiple, hasOverflown,
-            hasLeftDomain, energyLine, stopped, stoppedAt);
+            hasLeftDomain, energyLine, stopped);
     archive(result.trajectory, result.products, result.summary);
     for (Bound& b : observers) {
         archive(b.unknownNodes, b.unknownFrom);
@@ -213,8 +212,8 @@ void Recording::run(const std::function<void()>& publish, SchemeCheckpoint* file
     if (stopped) {
         taken.steps = std::min(grid.steps, state.node);
         taken.end = state.t;
-        state.t = stopped->t;
-        state.x = stopped->x;
+        state.t = stopped->state.t;
+        state.x = stopped->state.x;
         isLastNodeRow = false;
         account(report, state);
     }
@@ -223,9 +222,12 @@ void Recording::run(const std::function<void()>& publish, SchemeCheckpoint* file
                                            report.outcome == Outcome::lost ? &freshMotion : nullptr);
             std::isfinite(timing.fastest))
             report.cpuSeconds = std::min(report.cpuSeconds, timing.fastest);
-    if (!isLastNodeRow)
-        recordAlone(state, report.last, report.lastQuantities,
-                    static_cast<double>(state.node) - (stopped ? 1 - stoppedAt : 0));
+    if (stopped)
+        recordAlone(state, stopped->report.value_or(report.last),
+                    stopped->quantitiesFor(report.lastQuantities),
+                    static_cast<double>(state.node) - (1 - stopped->tau));
+    else if (!isLastNodeRow)
+        recordAlone(state, report.last, report.lastQuantities, static_cast<double>(state.node));
     if (system.field && plan.has(Product::frames)) recordFrame(state.t, state.x.data(), true);
     const auto* const elements = scheme.plain() ? scheme.family->parts.find<ElementSteps>() : nullptr;
     if (elements)

@@ -18,7 +18,7 @@ System particle(Value::Array A, Value phi, double m = 1, double charge = 1) {
                                                   {"m", m},
                                                   {"charge", charge}});
 }
-std::vector<std::string> momentaOf(const System& s) {
+std::vector<std::string> namesOfMomenta(const System& s) {
     std::vector<std::string> names;
     for (const MomentumMap& map : s.momenta) names.push_back(map.name);
     return names;
@@ -81,14 +81,14 @@ private slots:
         QVERIFY(!particle({"-y/2", "x/2", "exp(-(t-50)^2)"}, "0").exact);
     }
     void momentaFollowTheSymmetry() {
-        QCOMPARE(momentaOf(particle({"-y/2", "x/2", "0"}, "0")), (Names{"z", "linear.z"}));
-        QCOMPARE(momentaOf(particle({"0", "x", "0"}, "0")), (Names{"linear.y", "linear.z"}));
-        QCOMPARE(
-            momentaOf(particle({"-y*sqrt(x^2+y^2)/3", "x*sqrt(x^2+y^2)/3", "0"}, "z/(100*sqrt(x^2+y^2))")),
-            Names{"z"});
-        QCOMPARE(momentaOf(particle({"-y/2", "x/2", "0"}, "(x^2 + 1.0000001*y^2)*z")), Names{});
-        QCOMPARE(momentaOf(particle({"-y/2", "x/2", "0"}, "exp(-(x-50)^2)")), Names{"linear.z"});
-        QCOMPARE(momentaOf(particle({"-y/2", "x/2", "0"}, "exp(-(x^2+y^2-2500)^2)")),
+        QCOMPARE(namesOfMomenta(particle({"-y/2", "x/2", "0"}, "0")), (Names{"z", "linear.z"}));
+        QCOMPARE(namesOfMomenta(particle({"0", "x", "0"}, "0")), (Names{"linear.y", "linear.z"}));
+        QCOMPARE(namesOfMomenta(
+                     particle({"-y*sqrt(x^2+y^2)/3", "x*sqrt(x^2+y^2)/3", "0"}, "z/(100*sqrt(x^2+y^2))")),
+                 Names{"z"});
+        QCOMPARE(namesOfMomenta(particle({"-y/2", "x/2", "0"}, "(x^2 + 1.0000001*y^2)*z")), Names{});
+        QCOMPARE(namesOfMomenta(particle({"-y/2", "x/2", "0"}, "exp(-(x-50)^2)")), Names{"linear.z"});
+        QCOMPARE(namesOfMomenta(particle({"-y/2", "x/2", "0"}, "exp(-(x^2+y^2-2500)^2)")),
                  (Names{"z", "linear.z"}));
     }
     void momentaAreKept() {
