@@ -76,24 +76,30 @@ bool CandidateSearch::isSaturated(const PointResult& result) const {
 }
 
 /// A few steps at each of several lengths: a step that is too long for its equations costs more than shorter
-/// ones do.
+/// ones do, and where it has no solution it costs most of all. Lengths that were of no use to several schemes
+/// in a row are not tried with the next ones.
 void CandidateSearch::findStart(const StudyPoint& own, const ResolvedScheme& scheme, RaceEntry& entry) {
     constexpr long long steps = 3;
+    constexpr int enough = 3;
     if (scheme.isAdaptive()) {
         // Its first steps tell nothing of the others, which may be much longer.
         entry.firstN = 10;
         return;
     }
     double least = HUGE_VAL;
-    for (const double n : {6.0, 24.0, 96.0}) {
+    constexpr std::size_t usual = 3;  // more of them only where these fail
+    for (std::size_t i = 0; i < std::size(trialLengths); ++i) {
+        if (i >= usual && std::isfinite(least)) break;
+        if (useless_[i] >= enough) continue;
+        const double n = trialLengths[i];
         const StepCost cost = tryPoint(scene_, pointAt(own, scheme, n), steps, stop_);
         const double whole = n * (isCounted_ ? cost.work : cost.seconds);
         if (std::isfinite(whole)) entry.trials.emplace_back(n, whole);
-        if (whole < least) {
-            least = whole;
-            entry.firstN = n;
-        }
-        if (std::isfinite(least) && whole > 3 * least) break;  // as long as steps cost the same, n decides
+        if (whole < least || !std::isfinite(least)) entry.firstN = n;
+        const bool isWorse = std::isfinite(least) && whole > 3 * least;
+        least = std::min(least, whole);
+        useless_[i] = std::isfinite(whole) ? 0 : useless_[i] + 1;
+        if (isWorse) break;  // as long as steps cost the same, n decides
     }
     entry.firstCost = std::isfinite(least) ? least : 0;
 }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <iterator>
 #include <map>
 #include <span>
 #include <stop_token>
@@ -91,6 +92,8 @@ private:
     std::stop_token stop_;
     int runs_ = 0;
     std::vector<std::optional<RaceEntry>> entries_;  ///< with where each begins, once it is known
+    static constexpr double trialLengths[] = {6, 24, 96, 384, 1536};  ///< of the whole motion, steps
+    int useless_[std::size(trialLengths)] = {};  ///< schemes in a row that have no solution there
     std::map<Key, Known> known_;
 };
 

@@ -16,14 +16,14 @@ namespace {
 /// Kepler's motion with a drag: forces work, and the angular momentum falls.
 Comparison runWith(const std::string& keys) {
     const ReadScene read = readScene(
-        R"({"extremal":1,"model":{"type":"lagrangian","coordinates":["x","y"],
+        R"json({"extremal":1,"model":{"type":"lagrangian","coordinates":["x","y"],
             "lagrangian":"(x_t^2+y_t^2)/2+1/sqrt(x^2+y^2)","forces":{
     "x" : "-x_t/50", "y" : "-y_t/50"}},
             "initial":{"q":[1,0],"v":[0,1.1]},"schemes":[{"scheme":"galerkin-gauss-3","step":0.1}],
-            "observe":["balance","momentum-balance"],"time":{"end":10})" +
+            "observe":["balance","momentum-balance"],"time":{"end":10})json" +
         keys + "}");
-if (!read.errors.empty()) qFatal("%s %s", read.errors[0].pointer.c_str(), read.errors[0].message.c_str());
-return run(read.scene);
+    if (!read.errors.empty()) qFatal("%s %s", read.errors[0].pointer.c_str(), read.errors[0].message.c_str());
+    return run(read.scene);
 }
 std::vector<double> columnOf(const Comparison& c, const std::string& name) {
     return c.schemes.at(0)->trajectory.find(name)->values;
