@@ -68,8 +68,8 @@ AtlasSystem atlasSystem(const std::string& preset, const AtlasOptions& options) 
     if (!whole.resolved) throw InvalidScene(whole.errors);
     const double n = length / system.step;
     std::vector<double> steps;
-    for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0})
-        if (std::round(n * factor) >= 4 && (!options.isQuick || (factor >= 0.5 && factor <= 4)))
+    for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0})
+        if (std::round(n * factor) >= 4 && (!options.isQuick || factor >= 0.5))
             steps.push_back(length / std::round(n * factor));
     for (const char* metric : {"error", "energy", "momentum", "norm", "phase"}) {
         const std::vector<std::string> known = metricNames(*whole.resolved->system, whole.resolved->initial);

@@ -76,8 +76,8 @@ bool CandidateSearch::isSaturated(const PointResult& result) const {
 }
 
 /// A few steps at each of several lengths: a step that is too long for its equations costs more than shorter
-/// ones do, and where it has no solution it costs most of all. Lengths that were of no use to several schemes
-/// in a row are not tried with the next ones.
+/// ones do, and where it has no solution it costs most of all. Once that has taken a quarter of the time,
+/// lengths of no use to several schemes in a row are left out, and shorter steps tried in their place.
 void CandidateSearch::findStart(const StudyPoint& own, const ResolvedScheme& scheme, RaceEntry& entry) {
     constexpr long long steps = 3;
     constexpr int enough = 3;
@@ -86,20 +86,22 @@ void CandidateSearch::findStart(const StudyPoint& own, const ResolvedScheme& sch
         entry.firstN = 10;
         return;
     }
+    const bool isPressed = spent_ > seconds_ / 4;
     double least = HUGE_VAL;
-    constexpr std::size_t usual = 3;  // more of them only where these fail
-    for (std::size_t i = 0; i < std::size(trialLengths); ++i) {
+    constexpr std::size_t usual = 3;
+    for (std::size_t i = 0; i < (isPressed ? std::size(trialLengths) : usual); ++i) {
         if (i >= usual && std::isfinite(least)) break;
-        if (useless_[i] >= enough) continue;
+        if (isPressed && useless_[i] >= enough) continue;
         const double n = trialLengths[i];
         const StepCost cost = tryPoint(scene_, pointAt(own, scheme, n), steps, stop_);
         const double whole = n * (isCounted_ ? cost.work : cost.seconds);
-        if (std::isfinite(whole)) entry.trials.emplace_back(n, whole);
-        if (whole < least || !std::isfinite(least)) entry.firstN = n;
-        const bool isWorse = std::isfinite(least) && whole > 3 * least;
-        least = std::min(least, whole);
         useless_[i] = std::isfinite(whole) ? 0 : useless_[i] + 1;
-        if (isWorse) break;  // as long as steps cost the same, n decides
+        if (std::isfinite(whole)) entry.trials.emplace_back(n, whole);
+        if (whole < least) {
+            least = whole;
+            entry.firstN = n;
+        }
+        if (std::isfinite(least) && whole > 3 * least) break;  // as long as steps cost the same, n decides
     }
     entry.firstCost = std::isfinite(least) ? least : 0;
 }
