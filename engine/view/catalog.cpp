@@ -27,10 +27,8 @@ std::string missingFor(const View& view, const System& system) {
     const ViewEntry* entry = findView(view.id);
     if (!entry) return {};
     const ObservableEntry* const observable = findObservable(entry->observable);
-    if (entry->takes || !observable)
-        if (const std::string needed = neededInstead(entry->takes.value_or(plainProblems()), system.parts);
-            !needed.empty())
-            return needed;
+    const Takes takes = entry->takes ? *entry->takes : observable ? observable->takes : plainProblems();
+    if (const std::string needed = neededInstead(takes, system.parts); !needed.empty()) return needed;
     if (observable && !appliesTo(*observable, system))
         return observable->item.needs.empty() ? "the observable " + entry->observable
                                               : observable->item.needs;
