@@ -447,7 +447,7 @@ void MainWindow::addStudyActions() {
                   {QKeySequence(Qt::CTRL | Qt::Key_M)}, onPage(&StudyPage::measureCheapest),
                   tr("Runs every scheme that is on at the step that the wanted error needs"));
     actions_->add(
-        "needs", menu, tr("What the scene needs"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_M)},
+        "needs", menu, tr("What the scene needs"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_L)},
         [this] {
             if (schemes_->isHidden()) actions_->find("schemesPanel")->trigger();
             needs_->measure();

@@ -134,7 +134,7 @@ NeedsCard::NeedsCard(Workspace& workspace, Wanted& wanted, const Theme& theme, Q
     measure_->setObjectName("measureNeeds");
     measure_->setFocusPolicy(Qt::TabFocus);
     measure_->setToolTip(
-        tr("Searches all models and schemes for the cheapest at each error, for a second (Ctrl+Shift+M)"));
+        tr("Searches all models and schemes for the cheapest at each error, for a second (Ctrl+Shift+L)"));
     header()->addWidget(measure_);
     metric_ = new ComboBox;
     metric_->setAccessibleName(tr("What the error is of"));

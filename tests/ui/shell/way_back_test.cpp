@@ -97,10 +97,10 @@ private slots:
     }
     /// Every key of every action, also those that come later: what needs no scene is named here.
     void noKeyActsOnTheHiddenScene() {
-        const QStringList others{"gallery", "newLagrangian", "open",       "pasteScene", "quit",
-                                 "palette", "theme",         "larger",     "smaller",    "fullScreen",
-                                 "help",    "searchHelp",    "ownSchemes", "paper",      "keys",
-                                 "log",     "about",         "back"};
+        const QStringList others{"gallery",    "newLagrangian", "drawMechanism", "open",       "pasteScene",
+                                 "quit",       "palette",       "theme",         "larger",     "smaller",
+                                 "fullScreen", "help",          "searchHelp",    "ownSchemes", "paper",
+                                 "keys",       "log",           "about",         "back"};
         Window window;
         QVERIFY(window.workspace().edit({{"/model/k", Value(500.0)}}, "Change stiffness"));
         QVERIFY(waitForResults(window));
