@@ -121,10 +121,10 @@ BaselineEntry tao() {
          positive("spring", "spring", "", 10,
                   "How fast the copy turns around the state, in radians per unit of time: large enough "
                   "to hold it, and small against 1/step.")},
-        Claims{usual, false, false, {}},
+        Claims{usual, false, false, {}, false},
         ""};
     e.parts.set(ClaimsOfKeys{[](const Settings& settings) {
-        return Claims{settings.integer("order") < 4 ? 2 : 4, false, false, {}};
+        return Claims{settings.integer("order") < 4 ? 2 : 4, false, false, {}, false};
     }});
     e.takes = flowProblems();
     e.make = [](const System& system, const BaselineOptions& options) {
