@@ -11,6 +11,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/mechanism/mechanism_start.hpp"
+#include "engine/model/one_form.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/observe/catalog.hpp"
@@ -73,6 +74,33 @@ double canonicalDefect(const Trial& trial, double each) {
                M = jacobianOf([&](const State&from) { return step(*onManifold(from)); }, on.start, 5e-4,
                               on.own);
     return B && M ? symplecticDefect(*M, action, &*B) : unknown;
+}
+
+/// Of a one-form: M^T Om(x_1) M - Om(x_0), whose entries depend on the place, in the sizes of the variables;
+/// relative to the largest entries of Om and of M.
+double oneFormDefect(const Trial& trial, double each) {
+    const Subject& on = trial.on;
+    const auto integrator = trial.make(on.time / each);
+    const auto step = [&](State from) {
+        integrator->begin(from);
+        return after(*integrator, from, 1);
+    };
+    const auto M = jacobianOf(step, on.start, 5e-4, on.own);
+    const auto end = step(on.start);
+    if (!M || !end) return unknown;
+    const auto n = static_cast<Eigen::Index>(M->size);
+    const Eigen::Map<const Eigen::VectorXd> own(on.own.data(), n);
+    OneFormEquations equations(*on.system.parts.find<OneForm>());
+    const auto formAt = [&](const State& at) -> Eigen::MatrixXd {
+        return own.asDiagonal() * equations.form(at.x.data()) * own.asDiagonal();
+    };
+    const Eigen::MatrixXd
+        first = formAt(on.start),
+        last = formAt(*end),
+        map = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+            M->entries.data(), n, n);
+    return (map.transpose() * last * map - first).cwiseAbs().maxCoeff() /
+           (first.cwiseAbs().maxCoeff() * map.cwiseAbs().maxCoeff());
 }
 
 /// How far a step moves <a, b>, whose imaginary part is the symplectic form and whose real part the metric.
@@ -287,6 +315,7 @@ double returnDefect(const Trial& trial, double each) {
 double symplecticDefect(const Trial& trial, double each) {
     if (!trial.isSound(trial.on.time / each)) return unknown;
     if (trial.on.system.parts.find<Wave>()) return innerProductDefect(trial, each);
+    if (trial.on.system.parts.find<OneForm>()) return oneFormDefect(trial, each);
     if (!trial.on.system.parts.find<Body>()) return canonicalDefect(trial, each);
     const Subject& on = trial.on;
     // Angles, momenta in the body, positions, linear momenta, each in the size of all three.
@@ -398,8 +427,10 @@ void findModesty(Found& found, const CatalogueScheme& scheme, const Subject& on)
         found.broken.push_back("returns everywhere, and does not claim it");
     if (!c.isSymplectic && found.derivatives > 0 && found.largestSymplectic < unitary)
         found.broken.push_back("is symplectic everywhere, and does not claim it");
+    // The momentum of a variable that a one-form and its Hamiltonian do not have is kept by everything.
+    const bool isCyclic = on.system.parts.find<OneForm>() != nullptr;
     for (const auto& [what, change] : found.largestInLongSteps)
-        if (change < conserved && c.order > 0)
+        if (change < conserved && c.order > 0 && !(isCyclic && what == "momentum"))
             found.broken.push_back("conserves " + what + " everywhere, and does not claim it");
 }
 
