@@ -125,7 +125,8 @@ private slots:
         const QJsonObject limit = document["stability-limits"].toArray()[0].toObject();
         QVERIFY(std::abs(limit["limit"].toDouble() - 2) < 1e-3);
         QVERIFY(tests::contentOf(dir.filePath("out/stability.csv"))
-                    .startsWith("label,x,y,class,growth,max_energy_error,failed_at,cause\nSV,1,,stable,"));
+                    .startsWith(
+                        "label,x,y,class,growth,max_energy_error,failed_at,cause,judgement\nSV,1,,stable,"));
         QVERIFY(QFile::exists(dir.filePath("out/stability.png")));
         const auto error = [&](const QStringList& more) {
             return study(QStringList{"stability", "-", "--out", dir.filePath("no")} + more, oscillator).err;

@@ -155,7 +155,7 @@ private slots:
 
     void studiesGiveTablesAndFigures() {
         api::StudyOptions options;
-        options.steps = {0.2, 0.1, 0.05};
+        options.steps = {0.05, 0.025, 0.0125};
         options.repeat = 0;
         api::Study study("convergence", api::Scene::parse(pendulum), options);
         QVERIFY(!study.isComplete());

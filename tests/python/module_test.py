@@ -204,7 +204,7 @@ class Surroundings(unittest.TestCase):
                 self.assertEqual(members, {m for m in stubs[name] if not m.startswith("_")}, name)
 
     def test_studies_and_figures(self):
-        study = extremal.study("convergence", PENDULUM, steps=[0.2, 0.1, 0.05], repeat=0)
+        study = extremal.study("convergence", PENDULUM, steps=[0.05, 0.025, 0.0125], repeat=0)
         self.assertTrue(study.is_complete)
         self.assertAlmostEqual(study.tables["convergence"]["order"][0], 2, delta=0.1)
         figure = study.figures()[0]

@@ -20,8 +20,7 @@ ObservableEntry symplecticity() {
         {{"symplecticity", "max |MᵀJM − J|", "", {}, {}},
          {"symplecticity_accumulated", "max |PᵀJP − J| / max |P|²", "", {}, {}}},
         {.map = true}, true);
-    e.takes =
-        Takes::only<Mechanical, Body, Wave, ScalarField, Constraint, Wall, PhaseMechanics, OneForm>();
+    e.takes = Takes::only<Mechanical, Body, Wave, ScalarField, Constraint, Wall, PhaseMechanics, OneForm>();
     return e;
 }
 

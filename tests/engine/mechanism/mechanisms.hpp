@@ -101,9 +101,11 @@ inline Ending run(const Mechanical& of, const Discretization& scheme, double end
         L.velocity(L.model.get(), r.state.t, q, p, v.data());
         r.largestValue = std::max(r.largestValue, mechanism.largestValue(r.state.t, q));
         r.largestRate = std::max(r.largestRate, mechanism.largestRate(r.state.t, q, v.data()));
-        std::vector<double> said(integrator->quantities().size());
-        integrator->measure(r.state, said.data());
-        r.work += said.front();
+        if (const auto says = integrator->quantities(); !says.empty() && says.front().name == "work") {
+            std::vector<double> said(says.size());
+            integrator->measure(r.state, said.data());
+            r.work += said.front();
+        }
         r.impacts += static_cast<int>(integrator->impacts().size());
     }
     return r;
