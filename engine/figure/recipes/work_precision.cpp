@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Measured cost against measured error, one point per scheme: lower and further left is better.
 #include <cmath>
+#include <functional>
+#include <string_view>
 
 #include "engine/figure/build.hpp"
 
 namespace extremal::recipes {
 namespace {
 
-/// The error that the schemes can be judged by: the distance to the reference, else the energy error.
+/// The error that the schemes can be judged by: the distance to the reference; else, where forces work, how
+/// far energy and work are from their balance; else the energy error.
 struct Metric {
-    double Summary::*value;
+    std::function<double(const Summary&)> value;
     std::string title;
 };
+
+/// The extreme of an observable that the scene has.
+double extremeOf(const Summary& summary, std::string_view observable) {
+    for (const Summary::Extreme& each : summary.extremes)
+        if (each.observable == observable) return each.value;
+    return Summary::unknown;
+}
 
 Metric metricOf(const FigureContext& context) {
     for (const auto& scheme : context.comparison.schemes)
@@ -25,6 +35,9 @@ Metric metricOf(const FigureContext& context) {
             return {&Summary::maxError, axisTitle("max error in " + q, columnInfo(context, "error").unit)};
         }
     const std::string unit = context.system ? context.system->energyUnit : columnInfo(context, "energy").unit;
+    const auto balance = [](const Summary& summary) { return extremeOf(summary, "balance"); };
+    for (const auto& scheme : context.comparison.schemes)
+        if (std::isfinite(balance(scheme->summary))) return {balance, axisTitle("max |H − H(0) − W|", unit)};
     return {&Summary::maxEnergyError, axisTitle("max |H − H(0)|", unit)};
 }
 
@@ -41,7 +54,7 @@ Figure makeWorkPrecision(const FigureContext& context) {
         s.style = scheme->style;
         s.kind = SeriesKind::marks;
         s.x = {summary.cpuSeconds};
-        s.y = {summary.*metric.value};
+        s.y = {metric.value(summary)};
         figure.add(std::move(s));
     }
     figure.subtitle = "lower left is better";

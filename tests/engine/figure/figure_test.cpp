@@ -111,6 +111,21 @@ private slots:
         for (const Series& s : f.series()) QVERIFY(s.x.size() == 1 && s.kind == SeriesKind::marks);
         QVERIFY(f.x.isLog && f.y.isLog);
     }
+    /// Without a reference, where forces work: the balance, and not the change of the energy.
+    void costsAreHeldAgainstTheBalance() {
+        Comparison c = handmade::comparison();
+        double value = 1e-6;
+        for (auto& scheme : c.schemes) {
+            auto changed = std::make_shared<SchemeResult>(*scheme);
+            changed->summary.maxError = changed->summary.maxEnergyError = Summary::unknown;
+            changed->summary.extremes.push_back({"balance", "balance", value});
+            value *= 10;
+            scheme = std::move(changed);
+        }
+        const Figure f = makeFigure(c, {"work-precision", "", ""}, nullptr);
+        QVERIFY2(f.y.title.starts_with("max |H − H(0) − W|"), f.y.title.c_str());
+        QCOMPARE(f.series().front().y, std::vector<double>{1e-6});
+    }
     void fixedStepsNeedNoColumn() {
         const Figure f = makeFigure(handmade::comparison(), {"step", "", ""}, nullptr);
         QCOMPARE(f.series()[1].y, (std::vector<double>{0.02, 0.02}));
