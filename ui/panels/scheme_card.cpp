@@ -351,6 +351,10 @@ void SchemeCard::placeStep() {
     const bool isBelow = name_->sizeHint().width() > room;
     QHBoxLayout* const row = isBelow ? second_ : first_;
     if (row->indexOf(step_) >= 0) return;
+    // Not back by the width of a scroll bar: the height of the card decides whether there is one.
+    constexpr int moreThanABar = 24;
+    if (!isBelow && width() < widthBelow_ + moreThanABar) return;
+    widthBelow_ = isBelow ? width() : 0;
     for (QWidget* part : {static_cast<QWidget*>(step_), static_cast<QWidget*>(stepEdit_)}) {
         (isBelow ? first_ : second_)->removeWidget(part);
         row->insertWidget(isBelow ? row->count() : row->count() - 1, part);  // before the dots

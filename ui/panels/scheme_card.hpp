@@ -98,6 +98,7 @@ private:
     Figure cost_, error_, order_, steps_;
     QProgressBar* progress_;
     SchemeEditor* editor_ = nullptr;
+    int widthBelow_ = 0;  ///< where the step has been put below the name; 0: it stands beside it
 };
 
 }  // namespace extremal
