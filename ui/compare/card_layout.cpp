@@ -45,17 +45,27 @@ QLayoutItem* CardLayout::takeAt(int index) {
     return item;
 }
 
-void CardLayout::setSight(int height) {
-    if (std::exchange(sight_, height) != height) invalidate();
+void CardLayout::setSight(int height, int width) {
+    const bool isOther = sight_ != height || sightWidth_ != width;
+    sight_ = height;
+    sightWidth_ = width;
+    if (isOther) invalidate();
 }
 
 std::vector<CardLayout::Row> CardLayout::rows(int width) const {
-    std::vector<Row> all = rows(width, leastPlot);
-    int height = -gap;
-    for (const Row& row : all) height += row.height + gap;
-    if (sight_ <= 0 || height <= sight_) return all;
-    all = rows(width, easyPlot);
+    const auto heightOf = [](const std::vector<Row>& all) {
+        int height = -gap;
+        for (const Row& row : all) height += row.height + gap;
+        return height;
+    };
+    // Decided in the width that there is without a scroll bar: squares are lower beside one, and would have
+    // it go and come for ever.
+    const QMargins margins = contentsMargins();
+    const int whole = sightWidth_ > 0 ? sightWidth_ - margins.left() - margins.right() : width;
+    if (sight_ <= 0 || heightOf(rows(whole, leastPlot)) <= sight_) return rows(width, leastPlot);
+    std::vector<Row> all = rows(width, easyPlot);
     fillSight(all);
+    if (const int missing = sight_ + 1 - heightOf(all); missing > 0) all.back().height += missing;
     return all;
 }
 

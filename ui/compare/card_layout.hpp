@@ -25,8 +25,9 @@ public:
     void clear();
     void addCard(QWidget* card, CardShape shape);
     void setColumns(int columns);
-    /// The height that can be seen at once: rows that have to scroll anyway are higher.
-    void setSight(int height);
+    /// The height that can be seen at once, where rows that have to scroll anyway are higher; and the width
+    /// without a scroll bar, 0: that of the layout.
+    void setSight(int height, int width = 0);
 
     void addItem(QLayoutItem* item) override;
     int count() const override { return static_cast<int>(cards_.size()); }
@@ -56,7 +57,7 @@ private:
     std::vector<int> widths(const Row& row, int width, int height) const;
 
     std::vector<Placed> cards_;
-    int columns_ = 2, sight_ = 0;
+    int columns_ = 2, sight_ = 0, sightWidth_ = 0;
 };
 
 }  // namespace extremal

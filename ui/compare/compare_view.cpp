@@ -61,6 +61,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     cardLayout_ = new CardLayout(inside_);
     cardLayout_->setContentsMargins(0, 0, 2, 0);
     scroll->setWidget(inside_);
+    scroll->installEventFilter(this);
     layout->addWidget(scroll);
     makeStage();
     connectState();
@@ -323,9 +324,16 @@ void CompareView::arrange() {
     QTimer::singleShot(0, this, &CompareView::alignMargins);
 }
 
+/// Before the scroll area has decided on its bar: with the sight of the size before, its rows could need the
+/// bar where it is not, and not need it where it is.
+bool CompareView::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == scroll_ && event->type() == QEvent::Resize)
+        cardLayout_->setSight(scroll_->height(), scroll_->width());
+    return QWidget::eventFilter(watched, event);
+}
+
 void CompareView::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    cardLayout_->setSight(height());
     arrange();
 }
 

@@ -95,6 +95,7 @@ signals:
     void wantedMoved(double error);
 
 protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
 
 private:

@@ -37,6 +37,26 @@ private slots:
             QVERIFY2(stage * 5 >= sight * 2 || sight > 700, qPrintable(QString::number(stage)));
         }
     }
+    /// Squares are lower beside a scroll bar: one that is needed must be needed where it is.
+    void theScrollBarDoesNotComeAndGo() {
+        constexpr int bar = 14;
+        QWidget page;
+        auto* layout = new CardLayout(&page);
+        layout->setContentsMargins(0, 0, 0, 0);
+        layout->setColumns(2);
+        layout->addCard(new QWidget(&page), CardShape::stage);
+        for (int i = 0; i < 3; ++i) {
+            layout->addCard(new QWidget(&page), CardShape::square);
+            layout->addCard(new QWidget(&page), CardShape::plot);
+        }
+        for (int width = 700; width <= 1300; width += 13)
+            for (int sight = 300; sight <= 1600; sight += 7) {
+                layout->setSight(sight, width);
+                QVERIFY2(
+                    layout->heightForWidth(width) <= sight || layout->heightForWidth(width - bar) > sight,
+                    qPrintable(QString("%1 x %2").arg(width).arg(sight)));
+            }
+    }
     void rowsThatScrollAreHigher() {
         QWidget page;
         auto* layout = new CardLayout(&page);
