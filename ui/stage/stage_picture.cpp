@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/stage/stage_picture.hpp"
 
+#include <QThreadStorage>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,9 +11,12 @@
 namespace extremal {
 
 QImage drawStage(const StageFrame& frame, const Camera& camera, QSizeF size, double pixelRatio) {
-    // Creating a context and its shaders takes a tenth of a second; a context belongs to one thread.
-    thread_local std::unique_ptr<StagePainter> painter;
-    if (!painter) painter = std::make_unique<StagePainter>();
+    // Creating a context and its shaders takes a tenth of a second; a context belongs to one thread. Qt waits
+    // for what its own storage holds when it waits for a thread; thread_local objects of a thread of a pool
+    // are destroyed after that, perhaps while the program already exits and OpenGL is no longer there.
+    static QThreadStorage<StagePainter*> painters;
+    if (!painters.hasLocalData()) painters.setLocalData(new StagePainter);
+    StagePainter* painter = painters.localData();
     // Up: where the ratio is not a whole number, a row that is covered in part would keep what was there
     // before.
     const auto pixels = [&](double length) {

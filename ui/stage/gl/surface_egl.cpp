@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/stage/gl/surface.hpp"
-#include "ui/stage/gl/open_library.hpp"
 
 #define EGL_EGLEXT_PROTOTYPES 0
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <dlfcn.h>
 
 #include <string>
 
 namespace extremal {
 namespace {
 
+/// The few functions of libEGL, found at run time. It is never closed: Mesa has threads and exit handlers of
+/// its own, which would run code that is gone.
 struct EglLibrary {
     EglLibrary() : handle(dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL)) {
         if (!handle) throw OpenGlUnavailable("the stage needs libEGL here (install the package libegl1)");
@@ -27,11 +29,11 @@ struct EglLibrary {
     }
     template <class Function>
     void find(Function& function, const char* name) {
-        function = reinterpret_cast<Function>(dlsym(handle.get(), name));
+        function = reinterpret_cast<Function>(dlsym(handle, name));
         if (!function) throw OpenGlUnavailable(std::string("libEGL is older than 1.5, it has no ") + name);
     }
 
-    OpenLibrary handle;
+    void* handle;
     decltype(&eglGetProcAddress) procAddress = nullptr;
     decltype(&eglInitialize) initialize = nullptr;
     decltype(&eglTerminate) terminate = nullptr;

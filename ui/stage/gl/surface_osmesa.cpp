@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/stage/gl/surface.hpp"
-#include "ui/stage/gl/open_library.hpp"
 
 #include <GL/osmesa.h>
 #include <dlfcn.h>
@@ -12,12 +11,13 @@ namespace extremal {
 namespace {
 
 /// The few functions of libOSMesa, found at run time. The library exports every gl* name, so it is opened
-/// with RTLD_LOCAL: it must not answer for the window's libOpenGL.
+/// with RTLD_LOCAL: it must not answer for the window's libOpenGL. It is never closed: Mesa has threads and
+/// exit handlers of its own, which would run code that is gone.
 class OsmesaLibrary {
 public:
     OsmesaLibrary() {
         for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"})
-            if (!handle_) handle_.reset(dlopen(name, RTLD_NOW | RTLD_LOCAL));
+            if (!handle_) handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
         if (!handle_)
             throw OpenGlUnavailable(
                 "the stage needs libOSMesa to be drawn without a display (install the package libosmesa6)");
@@ -35,12 +35,12 @@ public:
 private:
     template <class Function>
     void find(Function& function, const char* name) {
-        function = reinterpret_cast<Function>(dlsym(handle_.get(), name));
+        function = reinterpret_cast<Function>(dlsym(handle_, name));
         if (!function)
             throw OpenGlUnavailable(std::string("libOSMesa is too old, it has no ") + name +
                                     " (install the package libosmesa6 of Mesa 11.2 or later)");
     }
-    OpenLibrary handle_;
+    void* handle_ = nullptr;
 };
 
 class OsmesaSurface : public Surface {
