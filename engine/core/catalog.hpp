@@ -29,12 +29,19 @@ struct CatalogItem {
     std::vector<FieldInfo> parameters;
     std::optional<Claims> claims;  ///< schemes and baselines
     std::string needs;  ///< what a model must have ("a mechanical system", "smooth forces"), or empty
+
+    // Compiled once.
+    CatalogItem(std::string id, std::string title, std::string description,
+                std::vector<FieldInfo> parameters = {}, std::optional<Claims> claims = {},
+                std::string needs = {});
+    CatalogItem();
+    CatalogItem(const CatalogItem&);
+    CatalogItem(CatalogItem&&) noexcept;
+    CatalogItem& operator=(const CatalogItem&);
+    CatalogItem& operator=(CatalogItem&&) noexcept;
+    ~CatalogItem();
 };
 
-inline std::vector<std::string> idsOf(const std::vector<CatalogItem>& items) {
-    std::vector<std::string> ids;
-    for (const CatalogItem& item : items) ids.push_back(item.id);
-    return ids;
-}
+std::vector<std::string> idsOf(const std::vector<CatalogItem>& items);
 
 }  // namespace extremal

@@ -4,6 +4,13 @@
 #include <utility>
 
 namespace extremal {
+
+FieldInfo::FieldInfo() = default;
+FieldInfo::FieldInfo(const FieldInfo&) = default;
+FieldInfo::FieldInfo(FieldInfo&&) noexcept = default;
+FieldInfo& FieldInfo::operator=(const FieldInfo&) = default;
+FieldInfo& FieldInfo::operator=(FieldInfo&&) noexcept = default;
+FieldInfo::~FieldInfo() = default;
 namespace {
 
 FieldInfo made(FieldType type, std::string key, std::string title, std::string symbol, Value fallback,
@@ -89,6 +96,29 @@ FieldInfo textField(std::string key, std::string symbol, Value fallback, std::st
 
 FieldInfo constantsField(std::string key, std::string description) {
     return made(FieldType::constants, key, key, {}, Value(Value::Object{}), std::move(description));
+}
+
+FieldInfo parametersField(Value::Object example) {
+    FieldInfo f = constantsField("parameters", "Constants by name; they may be expressions in each other.");
+    f.example = Value(std::move(example));
+    return f;
+}
+
+FieldInfo namesField(std::string key, Value::Array example, std::string description) {
+    FieldInfo f;
+    f.key = f.title = std::move(key);
+    f.type = FieldType::names;
+    f.example = Value(std::move(example));
+    f.description = std::move(description);
+    return f;
+}
+
+FieldInfo termsField(std::string key, std::string title, Value example, std::string description) {
+    FieldInfo f = textField(std::move(key), "", nullptr, std::move(description));
+    f.type = FieldType::terms;
+    f.title = std::move(title);
+    f.example = std::move(example);
+    return f;
 }
 
 FieldInfo formulasField(std::string key, std::vector<std::string> variables, Value fallback,

@@ -51,6 +51,14 @@ struct FieldInfo {
     std::string whyLimits;                ///< hint if a value is out of range; may be empty
     Value example;                        ///< the value in a new scene if there is no default
 
+    // Compiled once: hundreds of descriptors are made and handed on.
+    FieldInfo();
+    FieldInfo(const FieldInfo&);
+    FieldInfo(FieldInfo&&) noexcept;
+    FieldInfo& operator=(const FieldInfo&);
+    FieldInfo& operator=(FieldInfo&&) noexcept;
+    ~FieldInfo();
+
     const Value& firstValue() const { return example.isNull() ? fallback : example; }
 };
 
@@ -90,6 +98,12 @@ FieldInfo flagField(std::string key, bool fallback, std::string description);
 FieldInfo textField(std::string key, std::string symbol, Value fallback, std::string description);
 /// Constants by names of the user's: none, if left out.
 FieldInfo constantsField(std::string key, std::string description);
+/// "parameters": constants that may be expressions in each other.
+FieldInfo parametersField(Value::Object example = {});
+/// A list of names of the user's, under the title of its key.
+FieldInfo namesField(std::string key, Value::Array example, std::string description);
+/// A formula, or an object of such terms by name.
+FieldInfo termsField(std::string key, std::string title, Value example, std::string description);
 /// Expressions in variables and parameters of the model. Fallback null: required, unless isOptional.
 FieldInfo formulasField(std::string key, std::vector<std::string> variables, Value fallback,
                         std::string description);

@@ -14,18 +14,19 @@ enum class Outcome {
     singular,          ///< a linear system of the step, or the Legendre transform, has no unique solution
     energyUnsolvable,  ///< the discrete energy equation has no root for this step
     notFinite,         ///< an infinity or NaN appeared
-    stepBudget,    ///< more steps are needed than the scene allows, or an adaptive step shrank to round-off
-    lost,          ///< the solution left what is known of it: a root, a branch, a mesh that folded over
-    refused,       ///< the run turned out to ask for what the scheme cannot do
-    accumulation,  ///< impacts follow each other without end, or a body stays on a wall
-    stopped,       ///< a stop was requested
+    stepBudget,     ///< more steps are needed than the scene allows, or an adaptive step shrank to round-off
+    lost,           ///< the solution left what is known of it: a root, a branch, a mesh that folded over
+    refused,        ///< the run turned out to ask for what the scheme cannot do
+    accumulation,   ///< impacts follow each other without end, or a body stays on a wall
+    stopped,        ///< a stop was requested
+    underResolved,  ///< the solution has become finer than the mesh, as before a collapse
 };
 
 /// The spelling used in files and on the command line ("energy-unsolvable", ...); empty for converged.
 constexpr std::string_view name(Outcome outcome) {
-    constexpr std::array<std::string_view, 10> names = {
-        "",        "diverged",     "singular", "energy-unsolvable", "not-finite", "step-budget", "lost",
-        "refused", "accumulation", "stopped"};
+    constexpr std::array<std::string_view, 11> names = {
+        "",     "diverged", "singular",     "energy-unsolvable", "not-finite",    "step-budget",
+        "lost", "refused",  "accumulation", "stopped",           "under-resolved"};
     return names[static_cast<std::size_t>(outcome)];
 }
 

@@ -4,7 +4,6 @@
 
 #include <exception>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/core/value.hpp"
@@ -25,24 +24,20 @@ struct Problem {
 };
 
 /// Input that cannot be used. Thrown before any work is done, with every error that was found.
-class InvalidScene : public std::exception {
+/// The library exports it.
+class __attribute__((visibility("default"))) InvalidScene : public std::exception {
 public:
-    explicit InvalidScene(std::vector<Problem> problems) : problems_(std::move(problems)) { makeText(); }
-    InvalidScene(std::string pointer, std::string message, std::string hint = {})
-        : problems_{{std::move(pointer), std::move(message), std::move(hint)}} {
-        makeText();
-    }
+    explicit InvalidScene(std::vector<Problem> problems);
+    InvalidScene(std::string pointer, std::string message, std::string hint = {});
+    InvalidScene(const InvalidScene&);
+    InvalidScene& operator=(const InvalidScene&);
+    ~InvalidScene() override;
     const std::vector<Problem>& problems() const { return problems_; }
     const char* what() const noexcept override { return text_.c_str(); }
 
 private:
-    void makeText() {
-        for (const Problem& p : problems_) {
-            if (!text_.empty()) text_ += '\n';
-            text_ += p.pointer + ": " + p.message;
-            if (!p.hint.empty()) text_ += " (" + p.hint + ")";
-        }
-    }
+    void makeText();
+
     std::vector<Problem> problems_;
     std::string text_;
 };

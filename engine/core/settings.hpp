@@ -17,44 +17,26 @@ struct Settings {
     Value::Object keys;         ///< without "type"
     Value::Object expressions;  ///< key -> the text the user wrote, for the keys given as expressions
 
-    const Value* find(std::string_view key) const {
-        for (const auto& m : keys)
-            if (m.first == key) return &m.second;
-        return nullptr;
-    }
-    double number(std::string_view key) const {
-        const Value* v = find(key);
-        return v && v->isNumber() ? v->asNumber() : 0;
-    }
+    // Compiled once.
+    Settings(std::string type, Value::Object keys, Value::Object expressions);
+    Settings();
+    Settings(const Settings&);
+    Settings(Settings&&) noexcept;
+    Settings& operator=(const Settings&);
+    Settings& operator=(Settings&&) noexcept;
+    ~Settings();
+
+    const Value* find(std::string_view key) const;
+    double number(std::string_view key) const;
     /// The numbers of an array; empty if the key is not there.
-    std::vector<double> numbers(std::string_view key) const {
-        std::vector<double> all;
-        if (const Value* v = find(key); v && v->isArray())
-            for (const Value& entry : v->asArray())
-                if (entry.isNumber()) all.push_back(entry.asNumber());
-        return all;
-    }
-    int integer(std::string_view key) const { return static_cast<int>(number(key)); }
-    std::string text(std::string_view key) const {
-        const Value* v = find(key);
-        return v && v->isString() ? v->asString() : std::string();
-    }
-    bool flag(std::string_view key) const {
-        const Value* v = find(key);
-        return v && v->isBool() && v->asBool();
-    }
+    std::vector<double> numbers(std::string_view key) const;
+    int integer(std::string_view key) const;
+    std::string text(std::string_view key) const;
+    bool flag(std::string_view key) const;
     bool operator==(const Settings&) const = default;
 };
 
 /// The settings of an object {"type": ..., key: ...} inside other settings.
-inline Settings settingsOf(const Value& object) {
-    Settings settings;
-    for (const auto& [key, value] : object.asObject())
-        if (key == "type" && value.isString())
-            settings.type = value.asString();
-        else
-            settings.keys.emplace_back(key, value);
-    return settings;
-}
+Settings settingsOf(const Value& object);
 
 }  // namespace extremal

@@ -2,10 +2,10 @@
 #include "engine/solve/block_lu.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 #include <stdexcept>
+
+#include "engine/solve/small_lu.hpp"
 
 namespace extremal {
 namespace {
@@ -42,48 +42,6 @@ Symbolic eliminate(std::vector<std::set<int>> neighbours, int border) {
         for (const int i : near) waiting.insert(key(i));
     }
     return s;
-}
-
-/// The factors of a block in place, with rows exchanged.
-BlockLu::Result factoriseBlock(double* a, std::size_t n, double* inverse, std::size_t* row) {
-    for (std::size_t k = 0; k < n; ++k) {
-        double* left = a + k * n;
-        std::size_t best = k;
-        double largest = std::abs(left[k]);
-        for (std::size_t i = k + 1; i < n; ++i)
-            if (const double candidate = std::abs(left[i]); candidate > largest) {
-                largest = candidate;
-                best = i;
-            }
-        if (!(largest <= std::numeric_limits<double>::max())) return BlockLu::Result::notFinite;
-        if (!(largest > 0)) return BlockLu::Result::singular;
-        row[k] = best;
-        if (best != k)
-            for (std::size_t j = 0; j < n; ++j) std::swap(a[j * n + k], a[j * n + best]);
-        inverse[k] = 1 / left[k];
-        for (std::size_t i = k + 1; i < n; ++i) left[i] *= inverse[k];
-        for (std::size_t j = k + 1; j < n; ++j) {
-            double* column = a + j * n;
-            const double factor = column[k];
-            for (std::size_t i = k + 1; i < n; ++i) column[i] -= factor * left[i];
-        }
-    }
-    return BlockLu::Result::regular;
-}
-
-void solveBlock(const double* a, std::size_t n, const double* inverse, const std::size_t* row, double* x) {
-    for (std::size_t k = 0; k < n; ++k)
-        if (row[k] != k) std::swap(x[k], x[row[k]]);
-    for (std::size_t k = 0; k < n; ++k) {
-        const double* column = a + k * n;
-        const double factor = x[k];
-        for (std::size_t i = k + 1; i < n; ++i) x[i] -= factor * column[i];
-    }
-    for (std::size_t k = n; k-- > 0;) {
-        const double* column = a + k * n;
-        const double factor = x[k] *= inverse[k];
-        for (std::size_t i = 0; i < k; ++i) x[i] -= factor * column[i];
-    }
 }
 
 /// y -= A x, columns of `rows` entries.
@@ -178,20 +136,20 @@ std::size_t BlockLu::largest() const {
     return most;
 }
 
-BlockLu::Result BlockLu::factorise() {
+Outcome BlockLu::factorise() {
     double* const v = values_.data();
     for (const Elimination& e : order_) {
         const std::size_t n = size(e.block), f = first_[at(e.block)];
-        const Result result = factoriseBlock(v + e.diagonal, n, &inverse_[f], &exchanged_[f]);
-        if (result != Result::regular) return result;
+        const Outcome result = lu::factorise(v + e.diagonal, n, &inverse_[f], &exchanged_[f]);
+        if (result != Outcome::converged) return result;
         for (const Neighbour& j : e.neighbours)
             for (std::size_t c = 0; c < size(j.block); ++c)
-                solveBlock(v + e.diagonal, n, &inverse_[f], &exchanged_[f], v + j.beside + c * n);
+                lu::solve(v + e.diagonal, n, &inverse_[f], &exchanged_[f], v + j.beside + c * n);
         for (const Update& u : e.updates)
             for (std::size_t c = 0; c < u.columns; ++c)
                 subtractProduct(v + u.left, u.rows, n, v + u.right + c * n, v + u.target + c * u.rows);
     }
-    return Result::regular;
+    return Outcome::converged;
 }
 
 void BlockLu::solve(double* x) const {
@@ -201,7 +159,7 @@ void BlockLu::solve(double* x) const {
     for (const Elimination& e : order_) {
         const std::size_t n = size(e.block), f = first_[at(e.block)];
         double* const own = &right_[f];
-        solveBlock(v + e.diagonal, n, &inverse_[f], &exchanged_[f], own);
+        lu::solve(v + e.diagonal, n, &inverse_[f], &exchanged_[f], own);
         for (const Neighbour& j : e.neighbours)
             subtractProduct(v + j.below, size(j.block), n, own, &right_[first_[at(j.block)]]);
     }

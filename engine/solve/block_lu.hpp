@@ -16,14 +16,12 @@
 #include <utility>
 #include <vector>
 
-#include "engine/solve/small_lu.hpp"
+#include "engine/core/outcome.hpp"
 
 namespace extremal {
 
 class BlockLu {
 public:
-    using Result = SmallLu<double>::Result;
-
     BlockLu() = default;
     /// The unknowns of each block, in any order; couplings of blocks; those from `border` on come last.
     BlockLu(std::vector<std::vector<int>> blocks, const std::vector<std::pair<int, int>>& couplings,
@@ -37,7 +35,7 @@ public:
     void clear();
 
     /// Replaces the matrix by its factors. Singular: a pivot is exactly zero.
-    Result factorise();
+    Outcome factorise();
     /// Replaces the right-hand side by the solution.
     void solve(double* x) const;
 

@@ -11,7 +11,60 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/outcome.hpp"
+
 namespace extremal {
+
+namespace lu {
+
+/// Replaces n columns of n entries by their factors, with the inverses of the pivots and the row that each
+/// one was exchanged with. Outcome: converged, singular (a pivot is exactly zero) or notFinite.
+template <class T>
+Outcome factorise(T* a, std::size_t n, T* inverse, std::size_t* row) {
+    using std::abs;
+    for (std::size_t k = 0; k < n; ++k) {
+        T* left = a + k * n;
+        std::size_t best = k;
+        T largest = abs(left[k]);
+        for (std::size_t i = k + 1; i < n; ++i)
+            if (const T candidate = abs(left[i]); candidate > largest) {
+                largest = candidate;
+                best = i;
+            }
+        if (!(largest <= std::numeric_limits<T>::max())) return Outcome::notFinite;
+        if (!(largest > T(0))) return Outcome::singular;
+        row[k] = best;
+        if (best != k)
+            for (std::size_t j = 0; j < n; ++j) std::swap(a[j * n + k], a[j * n + best]);
+        inverse[k] = T(1) / left[k];
+        for (std::size_t i = k + 1; i < n; ++i) left[i] *= inverse[k];
+        for (std::size_t j = k + 1; j < n; ++j) {
+            T* column = a + j * n;
+            const T factor = column[k];
+            for (std::size_t i = k + 1; i < n; ++i) column[i] -= factor * left[i];
+        }
+    }
+    return Outcome::converged;
+}
+
+/// Replaces the right-hand side by the solution, column by column: sums along rows would wait for each other.
+template <class T>
+void solve(const T* a, std::size_t n, const T* inverse, const std::size_t* row, T* x) {
+    for (std::size_t k = 0; k < n; ++k)
+        if (row[k] != k) std::swap(x[k], x[row[k]]);
+    for (std::size_t k = 0; k < n; ++k) {
+        const T* column = a + k * n;
+        const T factor = x[k];
+        for (std::size_t i = k + 1; i < n; ++i) x[i] -= factor * column[i];
+    }
+    for (std::size_t k = n; k-- > 0;) {
+        const T* column = a + k * n;
+        const T factor = x[k] *= inverse[k];
+        for (std::size_t i = 0; i < k; ++i) x[i] -= factor * column[i];
+    }
+}
+
+}  // namespace lu
 
 template <class T>
 class SmallLu {
@@ -22,50 +75,10 @@ public:
     /// The j-th column of the matrix, to be set before factorise().
     T* column(int j) { return &a_[static_cast<std::size_t>(j) * size_]; }
 
-    enum class Result { regular, singular, notFinite };
-    /// Replaces the matrix by its factors. Singular: a pivot is exactly zero.
-    Result factorise() {
-        using std::abs;
-        for (std::size_t k = 0; k < size_; ++k) {
-            T* left = &a_[k * size_];
-            std::size_t best = k;
-            T largest = abs(left[k]);
-            for (std::size_t i = k + 1; i < size_; ++i)
-                if (const T candidate = abs(left[i]); candidate > largest) {
-                    largest = candidate;
-                    best = i;
-                }
-            if (!(largest <= std::numeric_limits<T>::max())) return Result::notFinite;
-            if (!(largest > T(0))) return Result::singular;
-            row_[k] = best;
-            if (best != k)
-                for (std::size_t j = 0; j < size_; ++j) std::swap(a_[j * size_ + k], a_[j * size_ + best]);
-            inverse_[k] = T(1) / left[k];
-            for (std::size_t i = k + 1; i < size_; ++i) left[i] *= inverse_[k];
-            for (std::size_t j = k + 1; j < size_; ++j) {
-                T* column = &a_[j * size_];
-                const T factor = column[k];
-                for (std::size_t i = k + 1; i < size_; ++i) column[i] -= factor * left[i];
-            }
-        }
-        return Result::regular;
-    }
-    /// Replaces the right-hand side by the solution, column by column: sums along rows would wait for each
-    /// other.
-    void solve(T* x) const {
-        for (std::size_t k = 0; k < size_; ++k)
-            if (row_[k] != k) std::swap(x[k], x[row_[k]]);
-        for (std::size_t k = 0; k < size_; ++k) {
-            const T* column = &a_[k * size_];
-            const T factor = x[k];
-            for (std::size_t i = k + 1; i < size_; ++i) x[i] -= factor * column[i];
-        }
-        for (std::size_t k = size_; k-- > 0;) {
-            const T* column = &a_[k * size_];
-            const T factor = x[k] *= inverse_[k];
-            for (std::size_t i = 0; i < k; ++i) x[i] -= factor * column[i];
-        }
-    }
+    /// Replaces the matrix by its factors.
+    Outcome factorise() { return lu::factorise(a_.data(), size_, inverse_.data(), row_.data()); }
+    /// Replaces the right-hand side by the solution.
+    void solve(T* x) const { lu::solve(a_.data(), size_, inverse_.data(), row_.data(), x); }
 
 private:
     std::size_t size_;

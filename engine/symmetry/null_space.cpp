@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/symmetry/null_space.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/symmetry/jumps.hpp"
 
 namespace extremal {
@@ -149,21 +147,19 @@ std::vector<Symmetry> symmetriesOnSamples(const System& system, const StateSampl
     }
     const VectorXd scales = equilibrate(M);
     if (!M.allFinite()) return {};
-    const MatrixXd R = Eigen::HouseholderQR<MatrixXd>(M).matrixQR().topRows(m).triangularView<Eigen::Upper>();
-    const Eigen::BDCSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
-    const VectorXd& sigma = svd.singularValues();
+    const auto [sigma, V] = dense::rightSingular(dense::triangleOf(M));
     const double limit = exact * (system.mechanics().isTimeDependent ? 100 : 1);
     std::vector<Symmetry> found;
     Index first = m;  // of the null space
     while (first > 0 && sigma[first - 1] < limit * sigma[0]) --first;
     const double gap = first > 0 ? sigma[first - 1] / sigma[0] : 1;
-    MatrixXd N = svd.matrixV().rightCols(m - first);
+    MatrixXd N = V.rightCols(m - first);
     const std::vector<Index> pivots = echelon(N, std::max(1e-12, 1e-14 / std::max(gap, 1e-12)));
     for (Index k = 0; k < N.cols(); ++k) found.push_back(unknowns.symmetryOf(N.col(k).cwiseProduct(scales)));
 
     Index firstNear = first;
     while (firstNear > 0 && sigma[firstNear - 1] < almost * sigma[0]) --firstNear;
-    MatrixXd near = svd.matrixV().middleCols(firstNear, first - firstNear);
+    MatrixXd near = V.middleCols(firstNear, first - firstNear);
     for (Index k = 0; k < near.cols(); ++k)
         for (std::size_t n = 0; n < pivots.size(); ++n)
             near.col(k) -= near(pivots[n], k) * N.col(static_cast<Index>(n));

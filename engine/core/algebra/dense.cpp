@@ -3,6 +3,8 @@
 
 #include <complex>
 
+template class Eigen::PartialPivLU<Eigen::MatrixXd>;
+
 namespace extremal::dense {
 
 Eigen::VectorXd rankPivots(Given<double> A) {
@@ -10,6 +12,11 @@ Eigen::VectorXd rankPivots(Given<double> A) {
         .matrixQR()
         .diagonal()
         .cwiseAbs();
+}
+
+Eigen::MatrixXd triangleOf(Given<double> A) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> factors(counted<double>(A, static_cast<double>(A.cols())));
+    return factors.matrixQR().topRows(A.cols()).triangularView<Eigen::Upper>();
 }
 
 template class Lu<double>;

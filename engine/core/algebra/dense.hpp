@@ -6,9 +6,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <type_traits>
+
+#include "engine/core/algebra/lu.hpp"
 
 namespace extremal::dense {
 
@@ -53,6 +54,8 @@ struct Qr {
 };
 template <class T>
 Qr<T> qr(Given<T> A);
+/// R alone.
+Eigen::MatrixXd triangleOf(Given<double> A);
 
 /// A v = value v for a symmetric A: values in ascending order, vectors of norm 1 as columns.
 template <class T>
@@ -71,5 +74,12 @@ Eigen::VectorXcd eigenvalues(Given<double> A);
 Eigen::VectorXd rankPivots(Given<double> A);
 /// Of a square matrix, descending.
 Eigen::VectorXd singularValues(Given<double> A);
+/// A = U diag(values) V^T of a square matrix, values descending; by rotations, which find also those far
+/// below the largest one.
+struct RightSingular {
+    Eigen::VectorXd values;
+    Eigen::MatrixXd V;
+};
+RightSingular rightSingular(Given<double> A);
 
 }  // namespace extremal::dense

@@ -23,6 +23,12 @@ Eigen::VectorXd singularValues(Given<double> A) {
     return Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner>(A).singularValues();
 }
 
+RightSingular rightSingular(Given<double> A) {
+    work::spend(20 * static_cast<double>(A.size() * A.rows()));
+    const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(A, Eigen::ComputeFullV);
+    return {svd.singularValues(), svd.matrixV()};
+}
+
 template SymmetricEigen<double> symmetricEigen<double>(Given<double>);
 template SymmetricEigen<long double> symmetricEigen<long double>(Given<long double>);
 

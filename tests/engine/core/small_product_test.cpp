@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/integrator/small_product.hpp"
+#include "engine/core/algebra/small_product.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::small_product_test {

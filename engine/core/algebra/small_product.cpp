@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/integrator/small_product.hpp"
+#include "engine/core/algebra/small_product.hpp"
 
 #include <cstring>
 #include <utility>
@@ -16,12 +16,12 @@ using Four = double __attribute__((vector_size(32)));
 using Eight = double __attribute__((vector_size(64)));
 
 template <class Pack>
-constexpr int lanes = sizeof(Pack) / sizeof(double);
+constexpr int lanesOf = sizeof(Pack) / sizeof(double);
 
 /// Adds the first `count` of `sum`.
 template <class Pack>
 inline void addTo(double* C, const Pack& sum, int count) {
-    if (count < lanes<Pack>) {
+    if (count < lanesOf<Pack>) {
         for (int i = 0; i < count; ++i) C[i] += sum[i];
         return;
     }
@@ -67,10 +67,11 @@ inline void strip(const SmallProduct& p, int r) {
     for (int i = 0; i < p.depth; ++i, A += p.stride)
         for (int k = 0; k < height; ++k) {
             Pack a;
-            std::memcpy(&a, A + k * lanes<Pack>, sizeof a);
+            std::memcpy(&a, A + k * lanesOf<Pack>, sizeof a);
             sum[k] += a * p.B[i];
         }
-    for (int k = 0; k < height; ++k) addTo(p.C + r + k * lanes<Pack>, sum[k], p.rows - r - k * lanes<Pack>);
+    for (int k = 0; k < height; ++k)
+        addTo(p.C + r + k * lanesOf<Pack>, sum[k], p.rows - r - k * lanesOf<Pack>);
 }
 
 template <class Pack>
@@ -78,8 +79,8 @@ inline void product(const SmallProduct& p) {
     constexpr int width = 8, height = 4;
     int r = 0;
     if (p.columns == 1)
-        for (; r + height * lanes<Pack> <= p.rows; r += height * lanes<Pack>) strip<Pack, height>(p, r);
-    for (; r < p.rows; r += lanes<Pack>) {
+        for (; r + height * lanesOf<Pack> <= p.rows; r += height * lanesOf<Pack>) strip<Pack, height>(p, r);
+    for (; r < p.rows; r += lanesOf<Pack>) {
         int c = 0;
         for (; c + width <= p.columns; c += width) tile<Pack, width>(p, r, c);
         narrow<Pack, width>(p, r, c);
@@ -89,7 +90,7 @@ inline void product(const SmallProduct& p) {
 /// Knuth's exact sums: what each addition loses is added up beside.
 template <class Pack>
 inline void sumOfTwo(const SumOfTwo& p) {
-    for (int r = 0; r < p.rows; r += lanes<Pack>) {
+    for (int r = 0; r < p.rows; r += lanesOf<Pack>) {
         Pack sum{}, lost{};
         for (const auto& [A, a] : {std::pair{p.A, p.a}, std::pair{p.B, p.b}}) {
             const double* column = A + r;
@@ -103,7 +104,7 @@ inline void sumOfTwo(const SumOfTwo& p) {
             }
         }
         sum += lost;
-        const int count = p.rows - r < lanes<Pack> ? p.rows - r : lanes<Pack>;
+        const int count = p.rows - r < lanesOf<Pack> ? p.rows - r : lanesOf<Pack>;
         for (int i = 0; i < count; ++i) p.c[r + i] = sum[i];
     }
 }

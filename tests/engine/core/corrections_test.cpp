@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "engine/solve/corrections.hpp"
+#include "engine/core/corrections.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::corrections_test {
