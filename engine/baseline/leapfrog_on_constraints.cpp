@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/baseline/leapfrog_on_constraints.hpp"
-#include "engine/solve/corrections.hpp"
-
-#include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
+
+#include "engine/core/algebra/lu.hpp"
+#include "engine/core/corrections.hpp"
 
 namespace extremal {
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/action/element_kernel.hpp"
+#include "engine/solve/small_lu.hpp"
 
 namespace extremal {
 namespace {
@@ -57,7 +58,7 @@ public:
         return residual_.allFinite();
     }
 
-    Factors factorise() override {
+    Outcome factorise() override {
         const int d = curve_.d, m = curve_.unknowns(), last = (m - 1) * d;
         const auto& H = hessian_;
         for (int c = 0; c < m * d; ++c) {

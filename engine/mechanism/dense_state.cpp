@@ -59,7 +59,7 @@ public:
             for (int i = 0; i < d_; ++i) column[i] = j < d_ ? hessian_(d_ + i, d_ + j) : -byPlace_(j - d_, i);
             for (int k = 0; k < n_; ++k) column[d_ + k] = j < d_ ? byPlace_(k, j) : 0;
         }
-        return lu_.factorise() == SmallLu<double>::Result::regular;
+        return lu_.factorise() == Outcome::converged;
     }
     void solve(Vector& x) const override { lu_.solve(x.data()); }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/mechanism/driven_flow.hpp"
 
-#include <atomic>
 #include <memory>
-#include <optional>
 
+#include "engine/core/own_buffers.hpp"
 #include "engine/mechanism/mechanism.hpp"
 
 namespace extremal {
@@ -18,17 +17,8 @@ struct Driven {
 };
 const Driven& driven(const void* p) { return *static_cast<const Driven*>(p); }
 
-/// A copy for this thread: a Mechanism has buffers. One is kept, since a thread integrates one system at a
-/// time.
-Mechanism& ownMechanism(const Driven& of) {
-    thread_local std::optional<Mechanism> own;
-    thread_local long long id = -1;
-    if (id != of.id) {
-        own.emplace(of.prototype);
-        id = of.id;
-    }
-    return *own;
-}
+/// A Mechanism has buffers.
+Mechanism& ownMechanism(const Driven& of) { return ownBuffers<Mechanism>(of.id, of.prototype); }
 
 void jet(const void* p, const double& t, const double* q, const double* v, double* value, double* gradient,
          double* hessian) {
@@ -54,14 +44,15 @@ bool flow(const void* p, const double& t, const double* q, const double* momentu
 
 }  // namespace
 
+bool isDriven(const Mechanics<double>& mechanics) { return mechanics.flow == flow; }
+
 Mechanics<double> drivenMechanics(const System& system) {
     if (!Mechanism::isOne(system.parts)) return flowOf(system);
-    static std::atomic<long long> next{0};
     const Mechanics<double>& L = system.mechanics();
     Mechanics<double> made;
     made.dimension = L.dimension;
     made.isTimeDependent = L.isTimeDependent;
-    made.model = std::make_shared<const Driven>(Driven{L, Mechanism(system.parts), next++});
+    made.model = std::make_shared<const Driven>(Driven{L, Mechanism(system.parts), nextModelId()});
     made.jet = jet;
     made.gradient = gradient;
     made.velocity = velocity;

@@ -15,5 +15,7 @@ inline Takes drivenProblems() { return firstOrderProblems().with<Constraint, For
 /// The mechanics of a system with that flow; those of the system itself where it has a Lagrangian alone. Its
 /// other calls are of the Lagrangian, and it is not separable.
 Mechanics<double> drivenMechanics(const System& system);
+/// Whether they are such: the Hessian of the Lagrangian is then not all of the Jacobian of the flow.
+bool isDriven(const Mechanics<double>& mechanics);
 
 }  // namespace extremal

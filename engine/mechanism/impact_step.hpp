@@ -12,10 +12,12 @@
 /// speeds of the motion is a graze and not an impact, and a depth of 1e-12 of the places is rounding.
 ///
 /// Impacts may accumulate: three times in a row their distances shrink by one factor r, and
-/// t* = t_n + dt_n r / (1 - r) is where infinitely many have passed. Before the step that t* lies in the run
-/// ends with the outcome `accumulation`, StepReport::step being t* - t. The same is said, with the time of
-/// the contact, of a body that stays on a wall: it is pressed there by the forces, and no impact takes it
-/// away.
+/// t* = t_n + dt_n r / (1 - r) is where infinitely many have passed. They are followed until t* is within
+/// 1e-8 of a step; from there on the body rests on the wall, as does one that touches it without a speed and
+/// is pressed there (wall_rest.hpp). It leaves the wall where that would have to pull. Both are impacts
+/// without an impulse (Integrator::impacts). Where a body cannot rest, as constraints and walls depend on
+/// each other there, the run ends before that step with the outcome `accumulation`, StepReport::step being t*
+/// - t.
 ///
 /// Known: Fetecau, Marsden, Ortiz, West 2003 (impacts of variational integrators, with equal discrete
 /// energies of both parts of a step; here H does not change at the contact, which walks less in long runs).
@@ -24,12 +26,14 @@
 #include <memory>
 
 #include "engine/integrator/integrator.hpp"
+#include "engine/mechanism/wall_rest.hpp"
 #include "engine/model/parts.hpp"
 
 namespace extremal {
 
-/// `inner`: a scheme of the same system without its walls; x = (q, p). `places`: at so many of each step gaps
-/// are looked at. Throws InvalidScene where a run goes back in time through walls that are not elastic.
-std::unique_ptr<Integrator> makeImpactStep(const Parts& parts, std::unique_ptr<Integrator> inner, int places);
+/// `make`: a scheme of the same system that leaves its walls alone, or of one with constraints besides;
+/// x = (q, p). `places`: at so many of each step gaps are looked at. Throws InvalidScene where a run goes
+/// back in time through walls that are not elastic.
+std::unique_ptr<Integrator> makeImpactStep(const Parts& parts, MakeOfParts make, int places);
 
 }  // namespace extremal

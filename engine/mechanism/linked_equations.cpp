@@ -64,7 +64,7 @@ public:
         residual_.segment((m - 1) * d, d) += p;
         return residual_.allFinite() && impulse_.allFinite();
     }
-    Factors factorise() override { return lu_.factorise(); }
+    Outcome factorise() override { return lu_.factorise(); }
     void solve(Vector& x) const override { lu_.solve(x.data()); }
     std::string about() const override {
         return std::to_string(lu_.blocks()) + " blocks of up to " + std::to_string(lu_.largest()) +

@@ -83,7 +83,7 @@ public:
             to[constraints_[e].reaction] = -value;
             to[constraints_[e].rate] = value;
         }
-        return lu_.factorise() == BlockLu::Result::regular;
+        return lu_.factorise() == Outcome::converged;
     }
     void solve(Vector& x) const override { lu_.solve(x.data()); }
 

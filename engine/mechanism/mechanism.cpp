@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/mechanism/mechanism.hpp"
-#include "engine/solve/corrections.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "engine/core/corrections.hpp"
 
 namespace extremal {
 namespace {

@@ -15,15 +15,14 @@
 #include <memory>
 #include <string>
 
+#include "engine/core/outcome.hpp"
 #include "engine/mechanism/mechanism_curve.hpp"
-#include "engine/solve/small_lu.hpp"
 
 namespace extremal {
 
 class MechanismEquations {
 public:
     using Vector = Eigen::VectorXd;
-    using Factors = SmallLu<double>::Result;
 
     virtual ~MechanismEquations() = default;
     virtual std::unique_ptr<MechanismEquations> clone() const = 0;
@@ -35,7 +34,7 @@ public:
     const Vector& residual() const { return residual_; }
     const Vector& impulse() const { return impulse_; }
     /// The matrix there, and its solution in place of a right-hand side.
-    virtual Factors factorise() = 0;
+    virtual Outcome factorise() = 0;
     virtual void solve(Vector& x) const = 0;
     /// How, where that was a choice.
     virtual std::string about() const { return {}; }

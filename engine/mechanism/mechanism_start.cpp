@@ -35,6 +35,17 @@ std::pair<std::string, double> worstMiss(const Constraint& g, double t, const do
     return {g.names[worst], value[worst]};
 }
 
+/// Whether a constraint, by its place among them, is missed where all others hold.
+bool isMissedAlone(const Constraint& g, const State& state, std::size_t d, int which) {
+    constexpr double holds = 1e-6;
+    const auto n = static_cast<std::size_t>(g.count());
+    std::vector<double> value(n), byPlace(n * d), byTime(n);
+    g.first(g.model.get(), state.t, state.x.data(), value.data(), byPlace.data(), byTime.data());
+    for (std::size_t k = 0; k < n; ++k)
+        if ((std::abs(value[k]) > holds) != (static_cast<int>(k) == which)) return false;
+    return true;
+}
+
 /// Constraints and rolling conditions that leave a motion, and do not repeat each other at the state.
 void requireIndependent(Mechanism& mechanism, const State& state) {
     const int d = mechanism.dimension(), n = mechanism.constraints();
@@ -47,12 +58,21 @@ void requireIndependent(Mechanism& mechanism, const State& state) {
                            "fewer" + std::string(what) + ", or more coordinates");
     const Mechanism::Rank rank = mechanism.rank(state.t, state.x.data());
     if (rank.ratio > dependent || rank.dependent < 0) return;
-    throw InvalidScene((rank.dependent < mechanism.holonomic() ? "/model/constraints/" : "/model/rolling/") +
-                           mechanism.nameOf(rank.dependent),
-                       n == 1 ? "has a gradient of 0 at the initial data"
-                              : "depends on the other" + std::string(what) +
-                                    " at the initial data: it allows the same motions",
-                       n == 1 ? "another start" : "leave it out, or start elsewhere");
+    if (rank.dependent < mechanism.holonomic() &&
+        isMissedAlone(*mechanism.constraint(), state, static_cast<std::size_t>(d), rank.dependent))
+        throw InvalidScene(
+            "/model/constraints/" + mechanism.nameOf(rank.dependent),
+            "is not met at the initial data, where the others are, and forbids the same motions: "
+            "it contradicts them",
+            "leave it out, or one of the others");
+    throw InvalidScene(
+        (rank.dependent < mechanism.holonomic() ? "/model/constraints/" : "/model/rolling/") +
+            mechanism.nameOf(rank.dependent),
+        n == 1
+            ? "has a gradient of 0 at the initial data"
+            : "depends on the other" + std::string(what) + " at the initial data: it allows the same motions",
+        n == 1 ? "a formula whose gradient is not 0 where it holds (no squares), or another start"
+               : "leave it out, or start elsewhere");
 }
 
 void moveOntoConstraints(const System& system, Mechanism& mechanism, State& state, bool movesFar) {

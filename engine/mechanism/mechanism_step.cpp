@@ -42,7 +42,7 @@ public:
         residual_ = Vector::Zero(m * (d + n));
         z_ = Vector::Zero((m + 1) * d);
         p0_ = velocity_ = q1_ = p1_ = carryQ_ = carryP_ = endVelocity_ = masses_ = startMasses_ =
-            Vector::Zero(d);
+            reactionScale_ = Vector::Zero(d);
         forces_ = Vector::Zero(d);
         node_ = gradient_ = Vector::Zero(2 * d);
     }
@@ -186,6 +186,7 @@ private:
     /// Newton's method from what is known at the start, and a second opinion where its root is far from it.
     Outcome solve() {
         constexpr double far = 0.25;
+        reactionScale_.setZero();
         Outcome outcome = startFresh(h_) ? newton(h_) : Outcome::singular;
         if (outcome == Outcome::stopped) return outcome;
         if (outcome == Outcome::converged && nearness_ <= far) return outcome;
@@ -243,7 +244,8 @@ private:
     }
 
     /// The correction against the increments, all coordinates together: one that turns back has increments
-    /// of almost nothing.
+    /// of almost nothing. Where reactions hold a body at rest, what is left of its increments is their
+    /// rounding.
     double changeInMassMetric() const {
         double change = 0;
         for (int k = 0; k < dimension(); ++k)
@@ -252,7 +254,7 @@ private:
                     change, std::sqrt(std::abs(startMasses_(k))) * std::abs(residual_(a * dimension() + k)));
         return change;
     }
-    double sizeInMassMetric() const {
+    double sizeInMassMetric() {
         const double roundOff = std::numeric_limits<double>::epsilon(), change = changeInMassMetric();
         double increments = 0;
         for (int k = 0; k < dimension(); ++k) {
@@ -261,12 +263,28 @@ private:
                 increments = std::max(increments, root * std::abs(Y_(a * dimension() + k)));
             increments = std::max(increments, 100 * roundOff * root * std::abs(z_(k)));
         }
+        if (constraints() > 0 && change > increments / 4) {
+            findReactionScales();
+            for (int k = 0; k < dimension(); ++k)
+                increments = std::max(
+                    increments, 100 * roundOff * std::sqrt(std::abs(startMasses_(k))) * reactionScale_(k));
+        }
         return change > 0 ? change / increments : 0;
+    }
+
+    /// What reactions keep coordinates from in a step: of a body that they hold at rest in the origin it is
+    /// the one size that rounding can be told by.
+    void findReactionScales() {
+        mechanism_.reaction(start_, z_.data(), multipliers_, reactionScale_);
+        for (int k = 0; k < dimension(); ++k)
+            reactionScale_(k) =
+                startMasses_(k) != 0 ? h_ * h_ * std::abs(reactionScale_(k) / startMasses_(k)) : 0;
     }
 
     CoordinateCorrection<double> correctionOf(int k, double h) const {
         const int d = dimension();
-        CoordinateCorrection<double> c{0, 0, z_(k), masses_(k), h * p0_(k)};
+        CoordinateCorrection<double> c{0, 0, std::max(std::abs(z_(k)), reactionScale_(k)), masses_(k),
+                                       h * p0_(k)};
         for (int a = 0; a < curve_.unknowns(); ++a) {
             c.change = std::max(c.change, std::abs(residual_(a * d + k)));
             c.increments = std::max(c.increments, std::abs(Y_(a * d + k)));
@@ -287,9 +305,10 @@ private:
         for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
             if (stop().stop_requested()) return Outcome::stopped;
             if (!evaluate(h)) return Outcome::notFinite;
-            const auto factors = equations_->factorise();
-            if (factors != SmallLu<double>::Result::regular)
-                return factors == SmallLu<double>::Result::singular ? Outcome::singular : Outcome::notFinite;
+            constexpr int usual = 4;
+            if (iteration == usual && constraints() > 0) findReactionScales();
+            if (const Outcome factors = equations_->factorise(); factors != Outcome::converged)
+                return factors;
             residual_ = equations_->residual();
             equations_->solve(residual_);
             report_.cost.linearSolves += 2;
@@ -386,7 +405,8 @@ private:
     Vector Y_, impulses_, residual_;         ///< impulses_: Lambda_j, j < m
     Vector z_;                               ///< (q_0, Y)
     Vector p0_, q1_, p1_, carryQ_, carryP_;  ///< carries: lost to rounding in q_1 and p_1
-    Vector velocity_, acceleration_, multipliers_, endVelocity_, kappa_, masses_, startMasses_;
+    Vector velocity_, acceleration_, multipliers_, endVelocity_, kappa_, masses_, startMasses_,
+        reactionScale_;
     Vector forces_;
     mutable Vector node_, gradient_;  ///< of dense output
     SaidOfForces said_;

@@ -127,6 +127,7 @@ EventFunction::EventFunction(const EventFunction& other)
       velocity_(other.velocity_),
       reactions_(other.reactions_) {}
 EventFunction::EventFunction(EventFunction&&) noexcept = default;
+EventFunction& EventFunction::operator=(EventFunction&&) noexcept = default;
 EventFunction::~EventFunction() = default;
 
 EventFunction::EventFunction(const std::string& whole, const EventSpec& event, const System& system) {

@@ -48,6 +48,8 @@ public:
     EventFunction(const EventSpec& event, const System& system);
     EventFunction(const EventFunction&);
     EventFunction(EventFunction&&) noexcept;
+    EventFunction& operator=(const EventFunction& other) { return *this = EventFunction(other); }
+    EventFunction& operator=(EventFunction&&) noexcept;
     ~EventFunction();
 
     /// `integrals`: the values of those in it.

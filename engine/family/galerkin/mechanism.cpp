@@ -112,9 +112,11 @@ std::unique_ptr<Integrator> mechanismStep(const System& system, const Discretiza
     const Table<double> table = tableOf(plain.space, plain.quadrature);
     std::optional<Rule<double>> forces;
     if (const auto rule = ruleOfForces(d)) forces = makeRule<double>(*rule);
-    auto own = makeMechanismStep(system.parts, table, forces, step, solverPolicy(d.solver, system));
-    if (!system.parts.find<Wall>()) return own;
-    return makeImpactStep(system.parts, std::move(own), MechanismCurve::partsPerFunction * table.unknowns());
+    const auto make = [table, forces, step, policy = solverPolicy(d.solver, system)](const Parts& parts) {
+        return makeMechanismStep(parts, table, forces, step, policy);
+    };
+    if (!system.parts.find<Wall>()) return make(system.parts);
+    return makeImpactStep(system.parts, make, MechanismCurve::partsPerFunction * table.unknowns());
 }
 
 void checkMechanism(const SchemeCase& scheme, Findings& findings) {
@@ -135,13 +137,17 @@ void checkMechanism(const SchemeCase& scheme, Findings& findings) {
     double value = 0;
     if (!L.velocity(L.model.get(), scheme.initial.t, q, q + d, v.data())) return;
     L.jet(L.model.get(), scheme.initial.t, q, v.data(), &value, gradient.data(), hessian.data());
-    force->first(force->model.get(), scheme.initial.t, q, v.data(), F.data(), byState.data());
-    const Eigen::MatrixXd rates = dense::solve<double>(Eigen::MatrixXd(hessian.bottomRightCorner(d, d)),
-                                                       Eigen::MatrixXd(byState.rightCols(d)));
-    const double z = std::abs(scheme.step) * rates.norm();
+    // At rest as well: friction that is smoothed is stiff where a velocity changes its sign.
+    double z = 0;
+    for (const Eigen::VectorXd& at : {v, Eigen::VectorXd(Eigen::VectorXd::Zero(d))}) {
+        force->first(force->model.get(), scheme.initial.t, q, at.data(), F.data(), byState.data());
+        const Eigen::MatrixXd rates = dense::solve<double>(Eigen::MatrixXd(hessian.bottomRightCorner(d, d)),
+                                                           Eigen::MatrixXd(byState.rightCols(d)));
+        if (rates.allFinite()) z = std::max(z, std::abs(scheme.step) * rates.norm());
+    }
     if (!(z > stiff)) return;
     const std::string size =
-        "damping is stiff for the step: c h / m = " + formatNumber(z, 2) + " at the start, ";
+        "damping is stiff for the step: c h / m = " + formatNumber(z, 2) + " at the places of the start, ";
     const int nodes = std::max(1, scheme.discretization.space.integer("degree"));
     findings.warning("/quadrature",
                      size + (isRadau(rule, "right") ? "and forces by right Radau amplify it"

@@ -67,7 +67,7 @@ ObservableEntry reaction() {
         for (int k = 0; k < mechanism.constraints(); ++k) {
             const std::string& name = mechanism.nameOf(k);
             const bool isHolonomic = k < mechanism.holonomic();
-            o.columns.push_back({"reaction." + name, (isHolonomic ? "λ_" : "μ_") + name, "", {}, {}});
+            o.columns.push_back({"reaction." + name, (isHolonomic ? "λ of " : "μ of ") + name, "", {}, {}});
             o.columns.push_back({"reaction." + name + ".force",
                                  (isHolonomic ? "|λ ∂g/∂q| of " : "|μ a| of ") + name,
                                  "",

@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Looks for the events of a scene in every step, on its dense output (integrator/crossing.hpp).
+/// Looks for the events of a scene in every step, on its dense output (scene/event_search.hpp).
 ///
 /// Events that a step has in common are in the order of their times; one that stops the run ends the motion
-/// there, and what comes later in the step has not happened. On a fixed grid the place where a run stops is
-/// that of a step of the scheme itself, whose length is found so that the event is at its end: the dense
-/// output is of a lower order. Integrals in an expression are taken over each step, or the part of one, by
-/// Gauss's rule with 6 nodes on the dense output. Events that reflect are impacts of the walls that they are
-/// (scene/reflections.hpp).
+/// there, and what comes later in the step has not happened. The place where a run stops is that of a step of
+/// the scheme itself, whose length is found so that the event is at its end: the dense output is of a lower
+/// order. Events that reflect are impacts of the walls that they are (scene/reflections.hpp), and those that
+/// switch a parameter are found by the integrator (scene/switched_step.hpp).
 #pragma once
 
 #include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "engine/integrator/crossing.hpp"
+#include "engine/family/parts/parameter_switching.hpp"
 #include "engine/integrator/integrator.hpp"
-#include "engine/quadrature/rule.hpp"
 #include "engine/run/comparison.hpp"
 #include "engine/run/march/found_events.hpp"
-#include "engine/scene/event_names.hpp"
+#include "engine/scene/event_search.hpp"
 
 namespace extremal {
 
 class EventWatch {
 public:
     /// The scheme alone, with nothing that was done yet; it may not exist for steps of other lengths.
-    using MakeScheme = std::function<std::unique_ptr<Integrator>(const State& start)>;
+    using MakeScheme = std::function<std::unique_ptr<Integrator>(const System& system, const State& start)>;
 
-    /// Writes into the product of the result.
-    EventWatch(SchemeResult& result, const Scene& scene, const System& system, MakeScheme make);
+    /// Writes into the product of the result. `switching`: of the run, where its parameters are switched.
+    EventWatch(SchemeResult& result, const Scene& scene, const System& system, MakeScheme make,
+               const SwitchesParameters* switching);
 
     void start(const State& state);
     /// Where the run is to stop, in which part of the step; none: it goes on.
@@ -53,40 +53,34 @@ public:
         }
     };
     std::optional<Stop> look(const Integrator& integrator, const State& before, const State& after);
-    void checkpoint(Archive& archive) { archive(last_, at_.x, integrals_); }
+    void checkpoint(Archive& archive) { archive(search_, at_.x); }
 
 private:
     struct Met {
         double tau;
         std::size_t event;
         bool isUpwards;
+        MetEvent sought;  ///< as the search has it
     };
-    using Values = std::vector<double>;
-    void findZeros(std::size_t event, const State& before, const State& after);
     void findImpacts(const Integrator& integrator, const State& before, const State& after);
-    Stop stopAt(const Integrator& integrator, const State& before, const State& after, const Met& met);
-    /// The step of the scheme itself that ends at the event; nothing where it has none.
-    std::optional<Stop> ownStep(const State& before, double h, Met& met);
-    void record(const State& at, const Met& met);
-    double valueAt(std::size_t event, double t, const double* x) const {
-        return functions_[event](t, x, integralsNow_);
+    /// Parameters of the expressions and the system, as they are at the end of a step.
+    void followSwitches(const State& at);
+    std::span<const ParameterSwitch> switches() const {
+        return switching_ ? switching_->switches() : std::span<const ParameterSwitch>();
     }
-    /// The integrals of an event up to the part tau of a step, into integralsNow_; `curve(tau)` is the state
-    /// there.
-    template <class Curve>
-    void integrate(std::size_t event, double start, double length, double tau, const Curve& curve);
+    Stop stopAt(const Integrator& integrator, const State& before, const State& after, const Met& met);
+    void record(const State& at, const Met& met);
 
     SchemeResult& result_;
     MakeScheme make_;
+    const SwitchesParameters* switching_;
     std::size_t width_;
-    std::vector<EventFunction> functions_;
-    std::vector<int> wallOf_;        ///< of each event: the wall that it is; -1: it is not one
-    Values last_;                    ///< values at the last node
-    std::vector<Values> integrals_;  ///< of each event, up to the last node
-    Values integralsNow_;
-    Rule<double> rule_;
-    StepSamples samples_;
-    CrossingFinder finder_;
+    std::vector<int> wallOf_;           ///< of each event: the wall that it is; -1: it is not one
+    std::vector<EventSpec> sought_;     ///< those searched for, with present values of parameters
+    std::vector<std::size_t> eventOf_;  ///< their places among all
+    EventSearch search_;
+    std::shared_ptr<const System> system_;  ///< that moves it now
+    std::vector<MetEvent> found_;
     std::vector<Met> met_;
     State at_;
 };

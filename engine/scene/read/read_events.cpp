@@ -7,6 +7,7 @@
 #include "engine/scene/read/pointer.hpp"
 #include "engine/scene/read/read_parts.hpp"
 #include "engine/scene/reflections.hpp"
+#include "engine/scene/switches.hpp"
 #include "engine/scene/write/format.hpp"
 
 namespace extremal {
@@ -62,6 +63,47 @@ void readExpression(Reader& reader, const std::string& text, const std::string& 
         if (!add(each, names)) return;
 }
 
+/// The keys of one action, which the others do not have.
+void readActionKeys(Reader& reader, const Value& object, const std::string& pointer, EventSpec& event) {
+    using Action = EventSpec::Action;
+    const auto isAllowed = [&](const char* key, Action action, const char* what, const char* hint) {
+        if (object.find(key) && event.action != action) reader.error(pointer + "/" + key, what, hint);
+        return event.action == action;
+    };
+    if (isAllowed("restitution", Action::reflect, "is for events that reflect", R"("action": "reflect")"))
+        if (const Value* restitution = object.find("restitution"))
+            if (const auto number = reader.number(*restitution, pointer + "/restitution",
+                                                  {.min = 0, .max = 1, .hint = "1: elastic"}))
+                event.restitution = number->value;
+    const char* const what = "is for events that switch a parameter";
+    const char* const hint = R"("action": "switch")";
+    if (isAllowed("parameter", Action::change, what, hint)) {
+        if (const Value* parameter = object.find("parameter"))
+            event.parameter = reader.text(*parameter, pointer + "/parameter").value_or("");
+        else
+            reader.error(pointer + "/parameter", "is required: what is switched",
+                         R"("parameter": "g", "value": 0)");
+    }
+    if (isAllowed("value", Action::change, what, hint)) {
+        if (const Value* value = object.find("value"))
+            event.value = reader.number(*value, pointer + "/value", {}).value_or(Number{});
+        else
+            reader.error(pointer + "/value", "is required: what the parameter is from then on",
+                         R"("parameter": "g", "value": 0)");
+    }
+}
+
+std::vector<Problem> actionProblems(const EventSpec& event, const Scene& scene, const System& system) {
+    switch (event.action) {
+        case EventSpec::Action::reflect:
+            return reflectionProblems(event, system);
+        case EventSpec::Action::change:
+            return switchProblems(event, scene, system);
+        default:
+            return {};
+    }
+}
+
 }  // namespace
 
 void readEvents(Reader& reader, const Value& document, const System* system, Scene& scene) {
@@ -100,17 +142,10 @@ void readEvents(Reader& reader, const Value& document, const System* system, Sce
         event.expression = *text;
         const std::size_t errorsBefore = reader.errors.size();
         readExpression(reader, *text, at, *system, event);
-        if (event.action == EventSpec::Action::reflect) {
-            if (const Value* restitution = object.find("restitution"))
-                if (const auto number = reader.number(*restitution, pointer + "/restitution",
-                                                      {.min = 0, .max = 1, .hint = "1: elastic"}))
-                    event.restitution = number->value;
-            if (reader.errors.size() == errorsBefore)
-                for (const Problem& p : reflectionProblems(event, *system))
-                    reader.error(at, p.message, p.hint);
-        } else if (object.find("restitution")) {
-            reader.error(pointer + "/restitution", "is for events that reflect", R"("action": "reflect")");
-        }
+        readActionKeys(reader, object, pointer, event);
+        if (reader.errors.size() == errorsBefore)
+            for (const Problem& p : actionProblems(event, scene, *system))
+                reader.error(p.pointer.empty() ? at : pointer + p.pointer, p.message, p.hint);
         if (reader.errors.size() == errorsBefore) scene.events.push_back(std::move(event));
     }
 }

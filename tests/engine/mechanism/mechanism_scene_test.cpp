@@ -72,6 +72,29 @@ private slots:
             "not finite");
         row("gradient of 0", "constraints", "rod", "(x-0.6)^2+(y+0.8)^2", "/model/constraints/rod",
             "gradient of 0");
+        row("dry friction", "forces", "x", "-sign(x_t)", "/model/forces/x", "jumps where x_t passes 0");
+        row("dry friction as a ratio", "forces", "x", "-x_t/abs(x_t)", "/model/forces/x",
+            "jumps where x_t passes 0");
+        row("dry friction in the plane", "forces", "x", "-x_t/sqrt(x_t^2+y_t^2)", "/model/forces/x",
+            "jumps where the velocities are 0");
+        row("dry friction on a belt", "forces", "y", "-heaviside(2*y_t-3)", "/model/forces/y",
+            "jumps where y_t passes 1.5");
+        row("a brake that begins", "forces", "x", "-piecewise(x_t > 0.5, 2, x_t)", "/model/forces/x",
+            "jumps where x_t passes 0.5");
+    }
+    /// Of the second kind, and smoothed, friction has no jump; walls have none.
+    void frictionThatDoesNotJump() {
+        for (const char* force : {"-sign(x_t)*x_t^2", "-x_t*abs(x_t)", "-tanh(x_t/1e-4)",
+                                  "-x_t/sqrt(x_t^2+1e-8)", "-sign(x)", "-piecewise(x_t > 0.5, x_t, 0.5)"}) {
+            const std::string said = textOf(read({{"forces", Value::Object{{"x", force}}}}).errors);
+            QVERIFY2(said.empty(), said.c_str());
+        }
+        const std::string dissipation = textOf(read({{"dissipation", "0.3*abs(x_t)"}}).errors);
+        QVERIFY2(dissipation.starts_with("/model/dissipation: jumps"), dissipation.c_str());
+        const std::string wall = textOf(
+            read({{"walls", Value::Object{{"floor", Value::Object{{"gap", "y+2"}, {"friction", 0.3}}}}}})
+                .errors);
+        QVERIFY2(wall.starts_with("/model/walls/floor/friction: is not modelled"), wall.c_str());
     }
     void whatIsWrongIsSaidWithItsPlace() {
         QFETCH(QString, key);
@@ -88,6 +111,29 @@ private slots:
                                         QString::fromStdString(p.message).contains(words);
                              }),
                  said.c_str());
+    }
+    /// Rules of constraints that lose order are named where they stand, and friction that is smoothed is
+    /// stiff where its velocity changes sign, however fast the start is.
+    void rulesAndStiffFriction() {
+        Value scene = Value(Value::Object{
+            {"extremal", 1},
+            {"model", Value::Object{{"type", "lagrangian"},
+                                    {"coordinates", Value::Array{"x", "y"}},
+                                    {"lagrangian", "(x_t^2+y_t^2)/2 - y"},
+                                    {"constraints", Value::Object{{"rod", "x^2+y^2-1"}}}}},
+            {"initial", Value::Object{{"q", Value::Array{0.6, -0.8}}, {"v", Value::Array{0.8, 0.6}}}},
+            {"time", Value::Object{{"end", 1}}}});
+        const Value gauss = Value::Object{{"type", "gauss"}, {"nodes", 2}};
+        const Value space = Value::Object{{"type", "polynomial"}, {"degree", 2}};
+        scene.set("schemes", Value::Array{Value::Object{
+                                 {"space", space},
+                                 {"quadrature", Value::Object{{"otherwise", gauss}, {"constraints", gauss}}},
+                                 {"step", 0.1}}});
+        const std::string said = textOf(readScene(scene).errors);
+        QVERIFY2(said.starts_with("/schemes/0/quadrature: constraints by gauss"), said.c_str());
+        const ReadScene friction = read({{"forces", Value::Object{{"x", "-tanh(x_t/1e-4)"}}}});
+        const std::string warned = textOf(friction.warnings);
+        QVERIFY2(warned.find("damping is stiff") != std::string::npos, warned.c_str());
     }
     /// Names of parts among each other, and with those of formulas.
     void namesHaveOneMeaning_data() {
@@ -160,6 +206,13 @@ private slots:
                  {{"q", Value::Array{0.6, -0.8, 0}}, {"v", Value::Array{0, 0, 1}}});
         const std::string said = textOf(scene.errors);
         QVERIFY2(said.find("/model/constraints/b: depends on the other") != std::string::npos, said.c_str());
+        const std::string against =
+            textOf(read({{"coordinates", Value::Array{"x", "y", "z"}},
+                         {"lagrangian", "(x_t^2+y_t^2+z_t^2)/2"},
+                         {"constraints", Value::Object{{"a", "x^2+y^2-1"}, {"b", "x^2+y^2-2"}}}},
+                        {{"q", Value::Array{0.6, -0.8, 0}}, {"v", Value::Array{0, 0, 1}}})
+                       .errors);
+        QVERIFY2(against.find("/model/constraints/b: is not met") != std::string::npos, against.c_str());
     }
     /// A start that misses the constraint is refused with the place that would do, which then does.
     void aStartOffTheConstraint() {

@@ -47,19 +47,13 @@ private slots:
         QFETCH(QString, scheme);
         QFETCH(int, order);
         QFETCH(int, steps);
-        const Mechanical of = named(name);
-        const double end = 2;
-        const State reference = byRungeKutta(of, end);
-        const Ending coarse = run(of, scheme.toStdString(), end, steps),
-                     fine = run(of, scheme.toStdString(), end, 2 * steps);
-        QVERIFY(coarse.outcome == Outcome::converged && fine.outcome == Outcome::converged);
-        const Distance a = distance(coarse.state, reference), b = distance(fine.state, reference);
-        const double q = std::log2(a.q / b.q), p = std::log2(a.p / b.p);
-        qInfo("errors of q %.1e, of p %.1e; orders %.2f, %.2f; |g| %.0e, |dg/dt| %.0e", b.q, b.p, q, p,
-              fine.largestValue, fine.largestRate);
-        QVERIFY(std::abs(q - order) < 0.3);
-        QVERIFY(std::abs(p - order) < 0.3);
-        QVERIFY(fine.largestValue < 1e-14 && fine.largestRate < 1e-13);
+        const MeasuredOrder m = orderOf(named(name), scheme.toStdString(), 2, steps);
+        QVERIFY(m.isDone());
+        qInfo("errors of q %.1e, of p %.1e; orders %.2f, %.2f; |g| %.0e, |dg/dt| %.0e", m.error.q, m.error.p,
+              m.q, m.p, m.fine.largestValue, m.fine.largestRate);
+        QVERIFY(std::abs(m.q - order) < 0.3);
+        QVERIFY(std::abs(m.p - order) < 0.3);
+        QVERIFY(m.fine.largestValue < 1e-14 && m.fine.largestRate < 1e-13);
     }
     /// The angles of two rods know no constraint.
     void theDoublePendulumIsThatOfAngles() {

@@ -138,4 +138,22 @@ inline Distance distance(const State& a, const State& b) {
     return {(x - y).head(d).norm(), (x - y).tail(d).norm()};
 }
 
+/// Against the solution by a Runge-Kutta code, of so many steps and of twice as many.
+struct MeasuredOrder {
+    Ending coarse, fine;
+    Distance error;  ///< of the finer run
+    double q = 0, p = 0;
+
+    bool isDone() const { return coarse.outcome == Outcome::converged && fine.outcome == Outcome::converged; }
+};
+inline MeasuredOrder orderOf(const Mechanical& of, const std::string& scheme, double end, int steps) {
+    const State reference = byRungeKutta(of, end);
+    MeasuredOrder m{run(of, scheme, end, steps), run(of, scheme, end, 2 * steps), {}, 0, 0};
+    const Distance coarse = distance(m.coarse.state, reference);
+    m.error = distance(m.fine.state, reference);
+    m.q = std::log2(coarse.q / m.error.q);
+    m.p = std::log2(coarse.p / m.error.p);
+    return m;
+}
+
 }  // namespace extremal::mechanism_test

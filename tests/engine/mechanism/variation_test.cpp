@@ -9,8 +9,8 @@
 #include <limits>
 #include <string>
 
-#include "engine/integrator/with_exponents.hpp"
-#include "engine/integrator/with_variations.hpp"
+#include "engine/integrator/variation/with_exponents.hpp"
+#include "engine/integrator/variation/with_variations.hpp"
 #include "engine/mechanism/tangent_space.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/write/codec.hpp"

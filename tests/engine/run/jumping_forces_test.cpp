@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Forces that jump, begin, pulse or are zero at a start from rest: steps that are right are not called lost.
-/// Roots that jump over a singularity still are (judge_test.cpp).
+/// Roots that jump over a singularity still are (motion_check_test.cpp).
 #include <QTest>
 
 #include <cmath>

@@ -5,14 +5,14 @@
 ///     x' at the end of a step: (3/2 x_1 - 2 x_0 + 1/2 x_-1) / h;   in the first step (x_1 - x_0) / h.
 /// Places and velocities are on the constraint to round-off, and energy is lost: the formula damps. Newton's
 /// method on (q, v, lambda, mu) together. Source: Gear, Gupta, Leimkuhler 1985.
-#include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "engine/baseline/constrained_method.hpp"
-#include "engine/solve/corrections.hpp"
+#include "engine/core/algebra/lu.hpp"
+#include "engine/core/corrections.hpp"
 
 namespace extremal::baselines {
 namespace {
