@@ -12,10 +12,12 @@
 #include <optional>
 #include <utility>
 
-#include "engine/baseline/flow_jacobian.hpp"
 #include "engine/core/dimension.hpp"
 #include "engine/integrator/integrator.hpp"
+#include "engine/mechanism/driven_flow.hpp"
+#include "engine/model/group/group_flow.hpp"
 #include "engine/model/mechanics.hpp"
+#include "engine/phase/flow_jacobian.hpp"
 
 namespace extremal {
 
@@ -43,9 +45,17 @@ public:
     double stepSize() const final { return h_; }
     void setStep(double h) final { h_ = h; }
 
-    std::size_t tangentSize() const override { return static_cast<std::size_t>(2 * d()); }
+    std::size_t tangentSize() const override {
+        const bool isVaried = !isDriven(mechanics_) && !isGroupFlow(mechanics_);
+        return isVaried ? static_cast<std::size_t>(2 * d()) : 0;
+    }
+    std::string tangentProblem() const override {
+        return isDriven(mechanics_) ? "forces and constraints are not varied in its flow"
+                                    : "it leaves the group";
+    }
     bool applyTangent(std::span<double> W) final {
-        return tangent(startTime_,
+        return tangentSize() > 0 &&
+               tangent(startTime_,
                        Columns(W.data(), 2 * d(), static_cast<Eigen::Index>(W.size()) / (2 * d())));
     }
 

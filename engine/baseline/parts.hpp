@@ -30,10 +30,11 @@ struct ClaimsOnSystem {
     std::function<Claims(const System&)> of;
 };
 
-/// The claims on one-forms, whose flow is not canonical in (q, p). Without it they are those on other
-/// systems.
-struct ClaimsOnOneForms {
-    static constexpr PartInfo part{"claims-on-one-forms", "claims that hold for one-forms", false};
+/// The claims on one-forms, brackets, groups and spheres, whose flow is not canonical in the numbers of the
+/// state. Without it they are those on other systems.
+struct ClaimsWithoutCoordinates {
+    static constexpr PartInfo part{"claims-without-coordinates", "claims that hold without coordinates",
+                                   false};
     std::function<Claims(const Settings&)> of;
 };
 

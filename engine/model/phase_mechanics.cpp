@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/model/one_form.hpp"
+#include "engine/model/first_order/first_order.hpp"
+#include "engine/model/group/group_flow.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal {
@@ -53,6 +54,41 @@ double energy(const void* model, const double& t, const double* q, const double*
     return of.energy(of.model.get(), t, q, p);
 }
 
+// Of a separable H: L = 1/2 sum_i m_i v_i^2 - V(t, q), V = H(t, q, 0).
+
+const std::vector<double>& massesOf(const void* p) { return static_cast<const PhaseFlow*>(p)->masses; }
+
+void lagrangianGradient(const void* model, const double& t, const double* q, const double* v,
+                        double* gradient) {
+    const PhaseMechanics& of = self(model);
+    of.gradient(of.model.get(), t, q, v, gradient);
+    const std::vector<double>& masses = massesOf(model);
+    for (std::size_t k = 0; k < masses.size(); ++k) {
+        gradient[k] = -gradient[k];
+        gradient[masses.size() + k] = masses[k] * v[k];
+    }
+}
+void lagrangianJet(const void* model, const double& t, const double* q, const double* v, double* value,
+                   double* gradient, double* hessian) {
+    const PhaseMechanics& of = self(model);
+    const std::vector<double>& masses = massesOf(model);
+    const auto d = static_cast<std::size_t>(of.dimension);
+    // H at p = v is V and a kinetic energy with other masses.
+    *value = -of.energy(of.model.get(), t, q, v);
+    for (std::size_t k = 0; k < d; ++k) *value += (masses[k] + of.inverseMasses[k]) * v[k] * v[k] / 2;
+    lagrangianGradient(model, t, q, v, gradient);
+    of.hessian(of.model.get(), t, q, v, hessian);
+    for (std::size_t i = 0; i < d; ++i)
+        for (std::size_t j = 0; j < d; ++j) {
+            hessian[i * 2 * d + j] = -hessian[i * 2 * d + j];
+            hessian[(d + i) * 2 * d + d + j] = i == j ? masses[i] : 0;
+        }
+}
+void forces(const void* model, const double* t, int nodes, const double* q, double* f) {
+    const PhaseMechanics& of = self(model);
+    of.forces(of.model.get(), t, nodes, q, f);
+}
+
 void force(const void* model, const double& t, const double* q, double* f) {
     const PhaseMechanics& of = self(model);
     SlopesAt g(of, t, q, q);  // of V, whatever the momenta
@@ -71,6 +107,9 @@ Mechanics<double> flowOf(const PhaseMechanics& mechanics) {
         made.isSeparable = true;
         made.force = force;
         made.masses = model->masses.data();
+        made.jet = lagrangianJet;
+        made.gradient = lagrangianGradient;
+        if (mechanics.forces) made.forces = forces;
     }
     made.model = model;
     made.velocity = velocity;
@@ -84,7 +123,8 @@ const PhaseMechanics* hamiltonianOf(const Mechanics<double>& mechanics) {
 }
 
 Mechanics<double> flowOf(const System& system) {
-    if (const OneForm* const form = system.parts.find<OneForm>()) return flowOf(*form);
+    if (isFirstOrder(system)) return flowOf(firstOrderOf(system));
+    if (isOnGroup(system)) return groupFlowOf(system);
     const PhaseMechanics* const hamiltonian = system.parts.find<PhaseMechanics>();
     return hamiltonian ? flowOf(*hamiltonian) : system.mechanics();
 }

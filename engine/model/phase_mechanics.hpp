@@ -26,16 +26,23 @@ struct PhaseMechanics {
     void (*gradient)(const void*, double t, const double* q, const double* p, double* gradient) = nullptr;
     void (*hessian)(const void*, double t, const double* q, const double* p, double* hessian) = nullptr;
 
+    /// Gradients at many nodes together, where the system offers it (null else): entry k of node i at
+    /// k * nodes + i, likewise q and p; `nodes` is a multiple of 8.
+    void (*gradients)(const void*, const double* t, int nodes, const double* q, const double* p,
+                      double* gradients) = nullptr;
+
     /// H = 1/2 sum_i w_i p_i^2 + V(t, q) with constant w_i: `inverseMasses` are these, else empty.
     std::vector<double> inverseMasses = {};
+    /// Of such H, -dH/dq at many nodes together, where the system offers it (null else); as above.
+    void (*forces)(const void*, const double* t, int nodes, const double* q, double* f) = nullptr;
     bool isTimeDependent = false;
 
     bool isSeparable() const { return !inverseMasses.empty(); }
 };
 
-/// The same behind the calls of methods for Hamilton's equations (engine/baseline): `flow`, `energy`,
-/// `velocity`, which is H_p and never fails, and, where it is separable, `force` and `masses`. It has no
-/// Lagrangian: `jet` and `gradient` are null.
+/// The same behind the calls of methods for Hamilton's equations (engine/baseline): `flow`, `energy` and
+/// `velocity`, which is H_p and never fails. Where it is separable it is that of a Lagrangian, 1/2 sum_i
+/// v_i^2 / w_i - V(t, q), with all calls; else it has no Lagrangian, and `jet` and `gradient` are null.
 Mechanics<double> flowOf(const PhaseMechanics& mechanics);
 /// The Hamiltonian behind what flowOf() has made; null for a Lagrangian.
 const PhaseMechanics* hamiltonianOf(const Mechanics<double>& mechanics);

@@ -5,14 +5,16 @@
 ///     w(a, b) = zeta_a . mu_b - mu_a . zeta_b + mu . [zeta_a, zeta_b],
 /// so that Om(mu) = [[-[mu]x, 1], [-1, 0]] on SO(3). `mu` is in the body: (Pi, p) on SE(3), where
 /// [(u, v), (u', v')] = (u x u', u x v' - u' x v).
-/// Of a one-form it is its derivative, w(a, b) = -a . Om(x) b (model/one_form.hpp).
+/// Of a one-form it is its derivative, w(a, b) = -a . Om(x) b (model/first_order/one_form.hpp).
 #pragma once
 
 #include <cstddef>
 #include <optional>
 
 #include "engine/group/so3.hpp"
-#include "engine/model/one_form.hpp"
+#include "engine/model/first_order/one_form.hpp"
+#include "engine/model/group/group_mechanics.hpp"
+#include "engine/model/group/lie_group.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal {
@@ -23,6 +25,7 @@ public:
         if (const OneForm* const form = system.parts.find<OneForm>()) oneForm_.emplace(*form);
         if (const Body* const body = system.parts.find<Body>())
             group_ = static_cast<std::size_t>(body->dimension);
+        if (const LieGroup* const given = system.parts.find<LieGroup>()) data_ = given->mechanics;
     }
 
     /// Of two variations of length n at the state x.
@@ -31,6 +34,7 @@ public:
         const std::size_t half = n / 2;
         double sum = 0;
         for (std::size_t i = 0; i < half; ++i) sum += a[i] * b[half + i] - a[half + i] * b[i];
+        if (data_) return sum + bracketOfData(x, a, b);
         return group_ == 0 ? sum : sum + bracket(x, a, b);
     }
 
@@ -48,6 +52,13 @@ private:
         return sum + p.dot(so3::cross(u, part(b + 3)) - so3::cross(other, part(a + 3)));
     }
 
+    /// The same of a group given as data (model/group/group_mechanics.hpp).
+    double bracketOfData(const double* x, const double* a, const double* b) const {
+        using Vector = Eigen::Map<const MatrixGroup::Vector>;
+        const int d = data_->dimension();
+        return Vector(x + data_->group->entries(), d).dot(data_->group->bracket(Vector(a, d), Vector(b, d)));
+    }
+
     /// -a . Om(x) b, which is the form above for theta = p dq.
     double ofOneForm(const double* x, const double* a, const double* b) const {
         const Eigen::MatrixXd& form = oneForm_->form(x);
@@ -56,6 +67,7 @@ private:
     }
 
     mutable std::optional<OneFormEquations> oneForm_;  ///< its buffers
+    std::shared_ptr<const GroupMechanics> data_;       ///< null: none
     std::size_t group_ = 0;                            ///< dimension; 0: none
 };
 

@@ -12,13 +12,12 @@
 
 #include "engine/action/table.hpp"
 #include "engine/integrator/integrator.hpp"
-#include "engine/model/one_form.hpp"
+#include "engine/model/first_order/one_form.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
 
-/// `table` does not change with the step. A form without a plane gets the cell of x' = Om^{-1} grad H
-/// (fieldOf): of the same order, and not symplectic.
+/// `table` does not change with the step. Of a form with a plane.
 std::unique_ptr<Integrator> makeOneFormStep(const OneForm& form, const Table<double>& table, double step,
                                             const SolverPolicy& policy);
 

@@ -31,16 +31,6 @@ void roundToOne(Eigen::VectorXd& values) {
         if (std::abs(v - 1) < roundOff) v = 1;
 }
 
-/// Whether node j does not enter the stages before it and itself, in some order: with kicks and drifts in
-/// turn, A B has nothing on and above the diagonal.
-bool isTriangular(const Eigen::MatrixXd& product) {
-    constexpr double roundOff = 1e-14;
-    for (Eigen::Index i = 0; i < product.rows(); ++i)
-        for (Eigen::Index j = i; j < product.cols(); ++j)
-            if (std::abs(product(i, j)) > roundOff) return false;
-    return true;
-}
-
 }  // namespace
 
 PhaseCell::PhaseCell(const Table<double>& ofStep)
@@ -61,10 +51,7 @@ PhaseCell::PhaseCell(const Table<double>& ofStep)
     B = slope * ofForces;
     fromStart = slope * ofMomentum;
     roundToOne(fromStart);
-    twice = A * B;
-    drift = A * fromStart;
     endRates = ofRates.row(m - 1).transpose();
-    isExplicit = isTriangular(twice);
     if (const Matrix next = slopesAhead(table); next.size() > 0) ahead = next * ofRates;
 }
 

@@ -44,11 +44,8 @@ struct PhaseCell {
     Vector ofMomentum;     ///< G^{-1} e
     Matrix A, B;           ///< the pair of tableaus
     Vector fromStart;      ///< r_i
-    Matrix twice;          ///< A B: of rates that are momenta over masses
-    Vector drift;          ///< A r
     Vector endRates;       ///< q_1 = q_0 + h endRates . K
     Matrix ahead;          ///< values at the nodes of the next step of what has values here; empty: unknown
-    bool isExplicit = false;  ///< where H = T(p) + V(q)
 };
 
 }  // namespace extremal

@@ -95,7 +95,7 @@ Outcome PhaseNewton::factorise() {
         return isRegular(pivots.minCoeff(), pivots.maxCoeff()) ? Outcome::converged : Outcome::singular;
     }
     for (int j = 0; j < size(); ++j) std::copy_n(matrix_.col(j).data(), size(), lu_.column(j));
-    return lu_.factorise() == SmallLu<double>::Result::regular ? Outcome::converged : Outcome::singular;
+    return lu_.factorise();
 }
 
 void PhaseNewton::solveFor(double* x) {

@@ -9,12 +9,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <span>
 #include <stop_token>
 #include <vector>
 
+#include "engine/core/algebra/lu.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/phase/phase_cell.hpp"

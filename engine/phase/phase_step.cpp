@@ -39,10 +39,9 @@ public:
           h_(step) {
         const int n = cell_.nodes();
         for (Nodes* nodes : {&K_, &F_, &newK_, &newF_, &Q_, &P_}) *nodes = Nodes::Zero(n, d());
-        for (Vector* v : {&q0_, &p0_, &q1_, &p1_, &q_, &p_, &lostQ_, &lostP_, &inverseMass_})
-            *v = Vector::Zero(d());
+        for (Vector* v : {&q0_, &p0_, &q1_, &p1_, &q_, &p_, &lostQ_, &lostP_}) *v = Vector::Zero(d());
         gradient_.assign(static_cast<std::size_t>(2 * d()), 0);
-        if (H_.isSeparable()) inverseMass_ = Eigen::Map<const Vector>(H_.inverseMasses.data(), d());
+        if (H_.gradients && n > 2) prepareLanes();
     }
 
     double stepSize() const override { return h_; }
@@ -104,8 +103,7 @@ public:
 
     std::size_t tangentSize() const override { return static_cast<std::size_t>(2 * d()); }
     bool applyTangent(std::span<double> W) override {
-        placePlaces();
-        placeMomenta();
+        placeNodes();
         return newton_.applyTangent(start_, h_, Q_, P_, W);
     }
 
@@ -134,7 +132,6 @@ public:
 
 private:
     int d() const { return H_.dimension; }
-    bool isSeparable() const { return H_.isSeparable(); }
 
     Outcome solve(bool isContinued) {
         if (policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
@@ -171,33 +168,51 @@ private:
         H_.gradient(H_.model.get(), t, q.data(), p.data(), gradient_.data());
         ++report_.cost.evaluations;
     }
-    /// q at the nodes, from K, or where the rates are momenta over masses from F.
-    void placePlaces() {
-        if (isSeparable()) {
-            Q_.noalias() = cell_.twice.lazyProduct(F_);
-            for (int k = 0; k < d(); ++k)
-                Q_.col(k) = (h_ * inverseMass_(k) * (p0_(k) * cell_.drift + h_ * Q_.col(k))).array() + q0_(k);
-        } else {
-            Q_.noalias() = cell_.A.lazyProduct(K_);
-            for (int k = 0; k < d(); ++k) Q_.col(k) = (h_ * Q_.col(k)).array() + q0_(k);
-        }
-    }
-    void placeMomenta() {
+    /// q and p at the nodes, from K and F.
+    void placeNodes() {
+        Q_.noalias() = cell_.A.lazyProduct(K_);
+        for (int k = 0; k < d(); ++k) Q_.col(k) = (h_ * Q_.col(k)).array() + q0_(k);
         P_.noalias() = cell_.B.lazyProduct(F_);
         for (int k = 0; k < d(); ++k) P_.col(k) = h_ * P_.col(k) + p0_(k) * cell_.fromStart;
     }
-    /// newF, and newK where it is not p over the masses, at the nodes as they are placed.
+    /// newK and newF at the nodes as they are placed.
     void evaluateNodes() {
-        p_ = p0_;
         for (int i = 0; i < cell_.nodes(); ++i) {
             q_ = Q_.row(i).transpose();
-            if (!isSeparable()) p_ = P_.row(i).transpose();
+            p_ = P_.row(i).transpose();
             evaluate(start_ + cell_.place(i) * h_, q_, p_);
             for (int k = 0; k < d(); ++k) {
                 newF_(i, k) = -gradient_[static_cast<std::size_t>(k)];
-                if (!isSeparable()) newK_(i, k) = gradient_[static_cast<std::size_t>(d() + k)];
+                newK_(i, k) = gradient_[static_cast<std::size_t>(d() + k)];
             }
         }
+    }
+
+    /// Of nodes that are evaluated together: rows beyond the last node are at the start of the step.
+    void prepareLanes() {
+        const int n = cell_.nodes(), rows = (n + 7) / 8 * 8;
+        lanesOfA_ = lanesOfB_ = Eigen::MatrixXd::Zero(rows, n);
+        lanesOfA_.topRows(n) = cell_.A;
+        lanesOfB_.topRows(n) = cell_.B;
+        lanesFromStart_ = times_ = Eigen::VectorXd::Ones(rows);
+        lanesFromStart_.head(n) = cell_.fromStart;
+        lanesQ_ = lanesP_ = Nodes::Zero(rows, d());
+        slopes_ = Eigen::MatrixXd::Zero(rows, 2 * d());
+    }
+    void evaluateTogether() {
+        const int n = cell_.nodes(), rows = static_cast<int>(times_.size());
+        lanesQ_.noalias() = lanesOfA_.lazyProduct(K_);
+        lanesP_.noalias() = lanesOfB_.lazyProduct(F_);
+        for (int k = 0; k < d(); ++k) {
+            lanesQ_.col(k) = (h_ * lanesQ_.col(k)).array() + q0_(k);
+            lanesP_.col(k) = h_ * lanesP_.col(k) + p0_(k) * lanesFromStart_;
+        }
+        times_.setConstant(start_);
+        if (H_.isTimeDependent) times_.head(n) += h_ * cell_.place;
+        H_.gradients(H_.model.get(), times_.data(), rows, lanesQ_.data(), lanesP_.data(), slopes_.data());
+        report_.cost.evaluations += n;
+        newF_ = -slopes_.leftCols(d()).topRows(n);
+        newK_ = slopes_.rightCols(d()).topRows(n);
     }
 
     /// From newK and newF, and back to K and F.
@@ -209,9 +224,12 @@ private:
             if (stop().stop_requested()) return Outcome::stopped;
             K_.swap(newK_);
             F_.swap(newF_);
-            placePlaces();
-            if (!isSeparable()) placeMomenta();
-            evaluateNodes();
+            if (times_.size() > 0) {
+                evaluateTogether();
+            } else {
+                placeNodes();
+                evaluateNodes();
+            }
             ++report_.cost.iterations;
             report_.residual = change();
             const Verdict verdict = policy.judge(report_.residual);
@@ -239,7 +257,7 @@ private:
         };
         for (int k = 0; k < d(); ++k) {
             look(newF_.col(k), F_.col(k), p0_(k));
-            if (!isSeparable()) look(newK_.col(k), K_.col(k), q0_(k));
+            look(newK_.col(k), K_.col(k), q0_(k));
         }
         return worst;
     }
@@ -279,22 +297,12 @@ private:
     /// (q_1, p_1) with what the last sums have lost.
     void finish() {
         for (int k = 0; k < d(); ++k) {
-            const double q = isSeparable() ? inverseMass_(k) * endDrift(k) : cell_.endRates.dot(K_.col(k)),
-                         p = cell_.weight.dot(F_.col(k));
+            const double q = cell_.endRates.dot(K_.col(k)), p = cell_.weight.dot(F_.col(k));
             q1_(k) = addExactly(q0_(k), h_ * q + lostQ_(k), lostQ_(k));
             p1_(k) = addExactly(p0_(k), h_ * p + lostP_(k), lostP_(k));
         }
-        if (isSeparable()) {  // K for dense output
-            placeMomenta();
-            for (int k = 0; k < d(); ++k) K_.col(k) = inverseMass_(k) * P_.col(k);
-        }
         hasCurve_ = true;
         curveStep_ = h_;
-    }
-    /// endRates . p at the nodes, from F.
-    double endDrift(int k) {
-        return p0_(k) * cell_.endRates.dot(cell_.fromStart) +
-               h_ * cell_.endRates.dot(cell_.B.lazyProduct(F_.col(k)));
     }
 
     PhaseMechanics H_;
@@ -304,8 +312,11 @@ private:
     double tolerance_, h_;
     Nodes K_, F_, newK_, newF_;  ///< H_p and -H_q at the nodes
     Nodes Q_, P_;
-    Vector q0_, p0_, q1_, p1_, q_, p_, lostQ_, lostP_, inverseMass_;
+    Vector q0_, p0_, q1_, p1_, q_, p_, lostQ_, lostP_;
     std::vector<double> gradient_;
+    Nodes lanesQ_, lanesP_;
+    Eigen::MatrixXd lanesOfA_, lanesOfB_, slopes_;  ///< slopes: node i, coordinates, then momenta
+    Eigen::VectorXd lanesFromStart_, times_;        ///< empty: node after node
     double start_ = 0, curveStep_ = 0;
     bool hasCurve_ = false;
     int newtonSteps_ = 0;  ///< steps for which Newton's method is preferred

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The step of a cell (phase/phase_cell.hpp) for Hamilton's equations.
 ///
-/// Fixed point: K and F at all nodes from the q and p that they make, contracting with h |H''|; where H =
-/// p^2/(2m) + V(t, q) the rates are eliminated, and it contracts with h^2. Where it is slow, Newton's method
-/// on (alpha, beta),
+/// Fixed point: K and F at all nodes from the q and p that they make, contracting with h |H''|. Where it is
+/// slow, Newton's method on (alpha, beta),
 ///     alpha - h ofRates H_p = 0,    beta - e_1 p_0 - h ofForces F = 0,
 /// whose matrix needs H'' and no inverse of H_pp; where that fails from all starting values the solution is
 /// followed from a short step (solve/step_continuation.hpp). Nothing is allocated but there. What q and p
@@ -22,7 +21,8 @@
 
 namespace extremal {
 
-/// `table` for a step; it must not change with the step.
+/// `table` for a step; it must not change with the step. Where H = p^2/(2m) + V(t, q) the cell is that of the
+/// Lagrangian (integrator/condensed.hpp), whose fixed point contracts with h^2.
 std::unique_ptr<Integrator> makePhaseStep(const PhaseMechanics& mechanics, const Table<double>& table,
                                           double step, const SolverPolicy& policy);
 

@@ -13,6 +13,7 @@
 #include "engine/family/family.hpp"
 #include "engine/family/frequency.hpp"
 #include "engine/family/galerkin/fitted_order.hpp"
+#include "engine/family/galerkin/kept.hpp"
 #include "engine/family/galerkin/mechanism.hpp"
 #include "engine/family/galerkin/phase.hpp"
 #include "engine/family/galerkin/split.hpp"
@@ -31,6 +32,7 @@
 #include "engine/family/table_properties.hpp"
 #include "engine/integrator/condensed.hpp"
 #include "engine/mechanism/mechanism.hpp"
+#include "engine/model/spins/spins.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/typed.hpp"
@@ -211,7 +213,7 @@ Family galerkin() {
         return rules;
     };
     f.written = galerkin::written;
-    f.takes = mechanisms().with<PhaseMechanics, OneForm>();
+    f.takes = mechanisms().with<PhaseMechanics, OneForm, PoissonStructure, Spins>();
     f.parts.set(SchemeCondition{[](const Discretization& d, const System& system) {
         const std::string problem = galerkin::phaseProblem(d, system);
         return problem.empty() ? galerkin::mechanismProblem(d, system) : problem;
@@ -224,23 +226,35 @@ Family galerkin() {
             std::vector<LagrangianTerm<double>> parts =
                 split.parts.size() > 1 ? split.parts : decltype(split.parts){};
             return makeCondensed(
-                system, [split](double h) { return galerkin::tablesOf(split, h); }, step,
+                system.mechanics(), [split](double h) { return galerkin::tablesOf(split, h); }, step,
                 solverPolicy(d.solver, system), std::move(parts));
         }
         const auto tables = [space = d.space, quadrature = d.quadrature](double h) {
             return std::vector{tableOf(withStep(space, h), quadrature)};
         };
-        return makeCondensed(system, tables, step, solverPolicy(d.solver, system));
+        return makeCondensed(system.mechanics(), tables, step, solverPolicy(d.solver, system));
     };
+    f.parts.set(galerkin::keptTest());
     f.parts.set(SolverMethods{{"newton", "fixed-point"}});
     f.parts.set(TrustedScheme{trusted});
     f.parts.set(
         DescribedOnSystem{[](const Discretization& d, const System& system) -> std::optional<Properties> {
-            if (Mechanism::isOne(system.parts) && galerkin::mechanismProblem(d, system).empty())
-                return galerkin::describeMechanism(d, system, describeGalerkin);
+            if (Mechanism::isOne(system.parts)) {
+                const std::string problem = galerkin::mechanismProblem(d, system);
+                if (problem.empty()) return galerkin::describeMechanism(d, system, describeGalerkin);
+                if (!galerkin::isSplit(d)) return {};
+                Properties refused;
+                refused.refusal = problem;
+                refused.place = "/quadrature";
+                refused.hint = "leave the rule out: the one that keeps the order is taken";
+                return refused;
+            }
             if (galerkin::isPhase(system)) {
-                if (!galerkin::phaseProblem(d, system).empty()) return {};
-                return galerkin::describePhase(d, system, describeGalerkin);
+                const std::string problem = galerkin::phaseProblem(d, system);
+                if (problem.empty()) return galerkin::describePhase(d, system, describeGalerkin);
+                Properties refused = describeGalerkin(d);
+                refused.refusal = problem;
+                return refused;
             }
             if (!galerkin::isSplit(d)) return {};
             return galerkin::describeSplit(d, system);

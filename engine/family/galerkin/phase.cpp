@@ -6,6 +6,9 @@
 #include "engine/family/galerkin/split.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/integrator/condensed.hpp"
+#include "engine/model/first_order/poisson.hpp"
+#include "engine/model/spins/spins.hpp"
+#include "engine/phase/field_step.hpp"
 #include "engine/phase/one_form_step.hpp"
 #include "engine/phase/phase_step.hpp"
 #include "engine/quadrature/tensor.hpp"
@@ -13,15 +16,20 @@
 
 namespace extremal::galerkin {
 
-bool isPhase(const System& system) {
-    return system.parts.find<PhaseMechanics>() || system.parts.find<OneForm>();
-}
+bool isPhase(const System& system) { return system.parts.find<PhaseMechanics>() || isFirstOrder(system); }
 
 std::string phaseProblem(const Discretization& d, const System& system) {
     if (!isPhase(system)) return {};
     if (isTermRule(d.quadrature) || isSplit(d))
         return "one space and one rule are needed in phase space: rules for terms and spaces for "
                "coordinates are for a Lagrangian";
+    const bool isGauss =
+        d.quadrature.type == "gauss" && d.quadrature.integer("nodes") == d.space.integer("degree");
+    const bool isMidpoint = d.quadrature.type == "midpoint" && d.space.integer("degree") == 1;
+    if (system.parts.find<Spins>() && (d.space.type != "polynomial" || !(isGauss || isMidpoint)))
+        return "q and p of spins must be treated alike, or they do not stay of length 1: degree s with "
+               "Gauss(s) "
+               "does";
     if (dependsOnStep(d.space)) return "functions that change with the step are for a Lagrangian";
     return {};
 }
@@ -32,18 +40,26 @@ Properties describePhase(const Discretization& d, const System& system,
     // Kicks and drifts in turn are explicit for kinetic and potential energies alone.
     const auto* const mechanics = system.parts.find<PhaseMechanics>();
     p.isExplicit = p.isExplicit && mechanics && mechanics->isSeparable();
-    if (const OneForm* const form = system.parts.find<OneForm>()) {
+    spins::claimLengths(system, p.claims);
+    if (isFirstOrder(system)) {
+        const OneForm* const form = system.parts.find<OneForm>();
         p.claims.conserves.clear();
-        p.claims.isSymplectic = form->hasPlane();
+        p.claims.isSymplectic = form && form->hasPlane();
     }
     return p;
 }
 
 std::unique_ptr<Integrator> phaseStep(const System& system, const Discretization& d, double step) {
-    if (const OneForm* const form = system.parts.find<OneForm>())
-        return makeOneFormStep(*form, tableOf(d.space, d.quadrature), step, solverPolicy(d.solver, system));
-    return makePhaseStep(system.part<PhaseMechanics>(), tableOf(d.space, d.quadrature), step,
-                         solverPolicy(d.solver, system));
+    const Table<double> table = tableOf(d.space, d.quadrature);
+    const SolverPolicy policy = solverPolicy(d.solver, system);
+    if (const OneForm* const form = system.parts.find<OneForm>(); form && form->hasPlane())
+        return makeOneFormStep(*form, table, step, policy);
+    if (isFirstOrder(system)) return makeFieldStep(firstOrderOf(system), table, step, policy);
+    const PhaseMechanics& mechanics = system.part<PhaseMechanics>();
+    if (!mechanics.isSeparable()) return makePhaseStep(mechanics, table, step, policy);
+    // p = m v at the nodes: the same cell, as that of a Lagrangian.
+    return makeCondensed(
+        flowOf(mechanics), [table](double) { return std::vector{table}; }, step, policy);
 }
 
 WrittenAction writtenPhase(const System& system) {
@@ -74,10 +90,16 @@ WrittenAction writtenPhase(const System& system) {
          "H}{\\partial q}\\Big|_i"}};
     if (const OneForm* const form = system.parts.find<OneForm>(); form && form->hasPlane())
         w.meaning +=
+            std::string(form->gauged
+                            ? " With a differential taken off the form half of the variables, y, has "
+                              "no velocity."
+                            : "") +
             " P_i = P(Q_i, Y_i), and Y_i, which has no velocity, is free at each node; H(q, p) is that of "
             "(q, Y(q, p)).";
     else if (form)
         w.meaning += " The equations Om(x) x' = grad H are those of H(x, p) = p·f(x) with p = 0.";
+    else if (system.parts.find<PoissonStructure>())
+        w.meaning += " The equations x' = J(x) grad H are those of H(x, p) = p·f(x) with p = 0.";
     return w;
 }
 
@@ -86,9 +108,17 @@ void checkPhase(const SchemeCase& scheme, Findings& findings) {
     if (const OneForm* const form = scheme.system.parts.find<OneForm>(); form && !form->hasPlane())
         findings.warning(
             "/space",
-            "is not symplectic here: no half of the variables is free of the form, so that it is "
-            "collocation on the equations of motion, of the same order",
+            "is not symplectic here: no half of the variables is free of the form, nor in another "
+            "gauge that is found, so that it is collocation on the equations of motion, of the "
+            "same order",
             "the form as P(q, y) dq, with as many y as q; symplecticity shows the defect");
+    if (const auto* const bracket = scheme.system.parts.find<PoissonStructure>();
+        bracket && !bracket->isConstant)
+        findings.warning(
+            "/space",
+            "does not keep the bracket here: it is collocation on the equations of motion, which "
+            "keeps linear and quadratic invariants, and the bracket only where it is constant",
+            "variables in which the bracket is constant; poisson-defect shows what is lost");
     const int degree = space.integer("degree");
     if (space.type != "polynomial" || degree < 2 || rule.type != "lobatto" || rule.integer("panels") > 1 ||
         rule.integer("nodes") != degree)

@@ -11,7 +11,7 @@
 
 #include "engine/family/family.hpp"
 #include "engine/integrator/integrator.hpp"
-#include "engine/model/one_form.hpp"
+#include "engine/model/first_order/one_form.hpp"
 #include "engine/model/phase_mechanics.hpp"
 
 namespace extremal::galerkin {

@@ -79,22 +79,14 @@ void checkHamiltonian(const Settings&, const System& system, const State& initia
 }
 
 std::vector<FieldInfo> hamiltonianFields() {
-    FieldInfo coordinates;
-    coordinates.key = coordinates.title = "coordinates";
-    coordinates.type = FieldType::names;
-    coordinates.example = Value(Value::Array{"x"});
-    coordinates.description =
-        "Names of the coordinates, at most 1000; the momentum of x is p_x. x[1..n] stands for x1, x2, ..";
-    FieldInfo parameters =
-        constantsField("parameters", "Constants by name; they may be expressions in each other.");
-    parameters.example = Value(Value::Object{{"m", 1}, {"k", 1}});
-    FieldInfo hamiltonian = textField(
-        "hamiltonian", "", nullptr,
+    const FieldInfo coordinates = namesField(
+        "coordinates", {"x"},
+        "Names of the coordinates, at most 1000; the momentum of x is p_x. x[1..n] stands for x1, x2, ..");
+    const FieldInfo parameters = parametersField({{"m", 1}, {"k", 1}});
+    const FieldInfo hamiltonian = termsField(
+        "hamiltonian", "Hamiltonian", "p_x^2/(2*m) + k/2*x^2",
         "H as an expression in coordinates, momenta, parameters and the time t; or an object of such terms "
         "by name, which are summed.");
-    hamiltonian.type = FieldType::terms;
-    hamiltonian.title = "Hamiltonian";
-    hamiltonian.example = "p_x^2/(2*m) + k/2*x^2";
     FieldInfo controls =
         textField("controls", "", nullptr,
                   "Functions of time by name, for use in the Hamiltonian: a formula in t and parameters, or "

@@ -33,7 +33,10 @@ System makeLagrangian(const Settings& given) {
     }
     if (auto force = typed::forceOf(settings, formula)) s.parts.set(*std::move(force));
     if (auto rolling = typed::rollingOf(settings, formula)) s.parts.set(*std::move(rolling));
-    if (auto wall = typed::wallOf(settings, formula)) s.parts.set(*std::move(wall));
+    if (auto wall = typed::wallOf(settings, formula)) {
+        s.parts.set(typed::contactWith(*wall));
+        s.parts.set(*std::move(wall));
+    }
     for (const int i : made.cyclic) {
         if (!typed::isUntouched(settings, formula, i)) continue;
         const auto k = static_cast<std::size_t>(i);
@@ -68,23 +71,15 @@ FieldInfo optionalField(const char* key, FieldType type, const char* description
 }
 
 std::vector<FieldInfo> lagrangianFields() {
-    FieldInfo coordinates;
-    coordinates.key = coordinates.title = "coordinates";
-    coordinates.type = FieldType::names;
-    coordinates.example = Value(Value::Array{"theta"});
-    coordinates.description =
+    const FieldInfo coordinates = namesField(
+        "coordinates", {"theta"},
         "Names of the coordinates, at most 2000; the velocity of x is x_t or dot(x). x[1..n] stands for x1, "
-        "x2, ..";
-    FieldInfo parameters =
-        constantsField("parameters", "Constants by name; they may be expressions in each other.");
-    parameters.example = Value(Value::Object{{"m", 1}, {"l", 1}, {"g", 9.81}});
-    FieldInfo lagrangian = textField(
-        "lagrangian", "", nullptr,
+        "x2, ..");
+    const FieldInfo parameters = parametersField({{"m", 1}, {"l", 1}, {"g", 9.81}});
+    const FieldInfo lagrangian = termsField(
+        "lagrangian", "Lagrangian", "m/2*l^2*theta_t^2 + m*g*l*cos(theta)",
         "L as an expression in coordinates, velocities, parameters and the time t; or an object of such "
         "terms by name, which are summed and may have rules of their own.");
-    lagrangian.type = FieldType::terms;
-    lagrangian.title = "Lagrangian";
-    lagrangian.example = "m/2*l^2*theta_t^2 + m*g*l*cos(theta)";
     return {
         coordinates,
         parameters,

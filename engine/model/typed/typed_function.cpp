@@ -40,23 +40,29 @@ TypedFunction::TypedFunction(const std::string& text, const std::string& pointer
     formula.text = text;
     try {
         checkNames(text, formula);
-        const auto symbolic = differentiate(formula);
-        const int d = variables_;
-        std::vector<int> roots{symbolic->value};
-        roots.insert(roots.end(), symbolic->gradient.begin(), symbolic->gradient.begin() + d);
-        roots.insert(roots.end(), symbolic->hessian.begin(), symbolic->hessian.begin() + d * (d + 1) / 2);
-        Graph graph;
-        const std::vector<int> here =
-            graph.adopt(symbolic->graph, roots, [&](int symbol) -> std::optional<double> {
-                const int k = symbol - formula.firstParameter();
-                if (k < 0) return {};
-                return formula.parameters[static_cast<std::size_t>(k)].second;
-            });
-        value_ = Tape::of(graph, std::vector<int>{here.front()}, d);
-        all_ = Tape::of(graph, here, d);
+        compile(formula);
     } catch (const ExpressionError& e) {
         throw invalidText(pointer, text, e, "the expression ");
     }
+}
+
+TypedFunction::TypedFunction(const Formula& formula) : variables_(formula.dimension()) { compile(formula); }
+
+void TypedFunction::compile(const Formula& formula) {
+    const auto symbolic = differentiate(formula);
+    const int d = variables_;
+    std::vector<int> roots{symbolic->value};
+    roots.insert(roots.end(), symbolic->gradient.begin(), symbolic->gradient.begin() + d);
+    roots.insert(roots.end(), symbolic->hessian.begin(), symbolic->hessian.begin() + d * (d + 1) / 2);
+    Graph graph;
+    const std::vector<int> here =
+        graph.adopt(symbolic->graph, roots, [&](int symbol) -> std::optional<double> {
+            const int k = symbol - formula.firstParameter();
+            if (k < 0) return {};
+            return formula.parameters[static_cast<std::size_t>(k)].second;
+        });
+    value_ = Tape::of(graph, std::vector<int>{here.front()}, d);
+    all_ = Tape::of(graph, here, d);
 }
 
 void TypedFunction::evaluate(const double* y, double* value, double* gradient, double* hessian) const {

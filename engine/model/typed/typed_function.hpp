@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/model/typed/formula.hpp"
 #include "engine/model/typed/tape.hpp"
 
 namespace extremal::typed {
@@ -19,6 +20,10 @@ class TypedFunction {
 public:
     TypedFunction(const std::string& text, const std::string& pointer, std::vector<std::string> variables,
                   std::vector<std::pair<std::string, double>> parameters);
+
+    /// Of the text of a formula whose names are known to be right, and which may be long (isExpanded).
+    /// Throws ExpressionError.
+    explicit TypedFunction(const Formula& formula);
 
     int variables() const { return variables_; }
     /// Fills f, then the gradient, then the lower triangle of the Hessian row by row; any of the last two may
@@ -33,6 +38,8 @@ public:
     }
 
 private:
+    void compile(const Formula& formula);
+
     int variables_;
     Tape value_, all_;
 };

@@ -15,6 +15,7 @@
 #include "engine/core/dimension.hpp"
 #include "engine/model/typed/branches.hpp"
 #include "engine/model/typed/landmarks.hpp"
+#include "engine/model/typed/node_tape.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape_registers.hpp"
 #include "engine/model/typed/tape_run.hpp"
@@ -101,26 +102,20 @@ public:
     static Calls hessians() { return ForThisMachine<&hessianLanes>::call(); }
 
 private:
-    static constexpr std::size_t few = 64;
-    static Lanes* large(std::size_t size) {
-        thread_local std::vector<Lanes> registers;
-        if (registers.size() < size) registers.resize(size);
-        return registers.data();
-    }
     /// `write(k, value)`: of the nodes from i on.
     template <class Write>
     static void eight(const Model& m, const Tape& tape, const double* t, int nodes, const double* q,
                       const double* v, int i, const Write& write) {
-        alignas(Lanes)
-            std::byte small[few * sizeof(Lanes)];  // not initialised: a tape writes before it reads
-        Lanes* const r = tape.registers() <= few ? reinterpret_cast<Lanes*>(small) : large(tape.registers());
-        for (int k = 0; k < m.d; ++k) {
-            r[k] = Lanes::load(q + k * nodes + i);
-            r[m.d + k] = Lanes::load(v + k * nodes + i);
-        }
-        r[2 * m.d] = Lanes::load(t + i);
-        detail::run(tape, r);
-        for (std::size_t k = 0; k < tape.outputs(); ++k) write(k, tape.output(k, r));
+        runEight(
+            tape,
+            [&](Lanes* r) {
+                for (int k = 0; k < m.d; ++k) {
+                    r[k] = Lanes::load(q + k * nodes + i);
+                    r[m.d + k] = Lanes::load(v + k * nodes + i);
+                }
+                r[2 * m.d] = Lanes::load(t + i);
+            },
+            write);
     }
     static void gradientsOf(const Model& m, const Tape& tape, const double* t, int nodes, const double* q,
                             const double* v, double* to) {

@@ -255,6 +255,11 @@ Picture pictureOf(const Formula& formula, const Constraint* constraint) {
     }
     if (isChain && !angles.empty()) return chain(formula, cart, angles);
     if (const auto found = bodiesOf(names)) return bodies(*found, rodsOf(constraint, *found, names.size()));
+    // Where others come after them, the first two may still say what they are: r and theta are no lengths
+    // along two axes.
+    if (names.size() > 2)
+        if (const auto found = bodiesOf({names[0], names[1]}); found && found->size() == 1)
+            return bodies(*found, {});
     return point(names.size());
 }
 

@@ -12,7 +12,8 @@
 /// A constraint on bodies with x, y and z that keeps the distance of two of them, or of one from a fixed
 /// point, is a rod.
 ///
-/// Of anything else the first two coordinates are a point in the plane, or one on a line. The trail is that
+/// Of anything else the first two coordinates are a body, by their names, or a point in the plane, or one on
+/// a line. The trail is that
 /// of the first body, of a chain that of its end.
 #pragma once
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Energy H(t, q, p) and its signed change H(t) - H(0): conserved by the flow of a time-independent
 /// Lagrangian.
+#include "engine/model/spins/spins.hpp"
+#include "engine/model/group/lie_group.hpp"
+#include "engine/model/group/spheres.hpp"
 #include "engine/model/mechanisms.hpp"
+#include "engine/model/wave/interaction.hpp"
 #include "engine/observe/catalog.hpp"
 
 namespace extremal::observables {
@@ -10,7 +14,7 @@ ObservableEntry energy() {
     ObservableEntry e;
     e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.",
               {},       {},       ""};
-    e.takes = plainProblemsAndMechanisms();
+    e.takes = plainProblemsAndMechanisms().with<Interaction, LieGroup, Spheres, Spins, Rotation>();
     e.suits = [](const System& system) { return static_cast<bool>(energyOf(system)); };
     e.bind = [](const ObserveContext& context) {
         Observer o;

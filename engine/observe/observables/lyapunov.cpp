@@ -2,6 +2,7 @@
 /// The largest Lyapunov exponent of the discrete motion so far, and MEGNO, which tells regular from chaotic
 /// motions long before: a variation of the state is carried along by the tangent maps of the steps.
 #include "engine/model/mechanisms.hpp"
+#include "engine/model/phase_mechanics.hpp"
 #include "engine/observe/quantity_observable.hpp"
 
 namespace extremal::observables {
@@ -17,7 +18,7 @@ ObservableEntry lyapunov() {
          {},
          "a scheme with a tangent map"},
         {{"lyapunov", "λ", "", {}, {}}, {"megno", "Ȳ", "", {}, {}}}, {.vector = true}, false);
-    e.takes = mechanisms().with<Body>();
+    e.takes = mechanisms().with<Body, PhaseMechanics>();
     return e;
 }
 

@@ -2,7 +2,7 @@
 /// All Lyapunov exponents of the discrete motion so far, by an orthonormal frame of variations.
 #include <string>
 
-#include "engine/integrator/with_exponents.hpp"
+#include "engine/integrator/variation/with_exponents.hpp"
 #include "engine/mechanism/tangent_space.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/model/phase_mechanics.hpp"

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/model/spins/spins.hpp"
+#include "engine/model/group/lie_group.hpp"
+#include "engine/model/group/spheres.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/observe/measured.hpp"
 #include "engine/symmetry/conserved.hpp"
@@ -19,7 +22,7 @@ ObservableEntry momentum() {
               {},
               {},
               "a symmetry"};
-    e.takes = plainProblemsAndMechanisms();
+    e.takes = plainProblemsAndMechanisms().with<LieGroup, Spheres, Spins>();
     e.suits = [](const System& system) { return measureOf(system, "momentum") || hasMomenta(system); };
     e.bind = [](const ObserveContext& context) {
         if (const Measure* mean = measureOf(context.system, "momentum"))

@@ -3,7 +3,10 @@
 /// round-off where the scheme is symmetric. The run fills the column when it is done.
 #include <cmath>
 
-#include "engine/model/one_form.hpp"
+#include "engine/model/spins/spins.hpp"
+#include "engine/model/first_order/one_form.hpp"
+#include "engine/model/group/lie_group.hpp"
+#include "engine/model/group/spheres.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/observe/catalog.hpp"
 
@@ -17,9 +20,9 @@ ObservableEntry reversibility() {
               "reaches, with the opposite step. Costs a second run.",
               {},
               {},
-              "a scheme with a fixed step"};
+              "a scheme with a fixed step, or with steps that follow a monitor"};
     e.needsWayBack = true;
-    e.takes = Takes::only<Mechanical, Body, PhaseMechanics, OneForm>();
+    e.takes = Takes::only<Mechanical, Body, LieGroup, Spheres, Spins, PhaseMechanics, OneForm>();
     e.bind = [](const ObserveContext&) {
         Observer o;
         o.columns = {{"reversibility", "|x back − x|", "", {}, {}}};

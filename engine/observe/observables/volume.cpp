@@ -2,6 +2,8 @@
 /// By how much each step changes volumes of phase space, det M - 1 with its tangent map M; with
 /// constraints along their manifold. Forces and impacts change volumes themselves: contraction allows for
 /// that.
+#include "engine/model/spins/spins.hpp"
+#include "engine/model/group/lie_group.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/observe/quantity_observable.hpp"
 
@@ -18,7 +20,7 @@ ObservableEntry volume() {
                              "a scheme with a tangent map"},
                             {{"volume", "det M − 1", "", {}, {}}}, {.map = true}, true);
     // The variables of a one-form are not canonical, and their volume is not kept by the flow either.
-    e.takes = Takes::only<Mechanical, Body, Constraint, PhaseMechanics>();
+    e.takes = Takes::only<Mechanical, Body, LieGroup, Constraint, PhaseMechanics, Spins>();
     return e;
 }
 

@@ -15,6 +15,7 @@
 #include "engine/phase/phase_step.hpp"
 #include "engine/tableau/tableau.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/other_routes.hpp"
 #include "tests/tools/tangent.hpp"
 #include "tests/tools/test.hpp"
 
@@ -59,15 +60,7 @@ State ending(const Motion& of, const Discretization& d, int steps, double end = 
     return *found;
 }
 
-/// By a Runge-Kutta code, which knows nothing of the cell.
-State byRungeKutta(const Motion& of, double end = 2) {
-    const BaselineEntry* const entry = findBaseline("fehlberg78");
-    const auto integrator = entry->make(of.system, {0, of.start, 1e-14, {}});
-    State s = of.start;
-    while (s.t < end)
-        if (integrator->advance(s, end).outcome != Outcome::converged) qFatal("no reference");
-    return s;
-}
+State byRungeKutta(const Motion& of, double end = 2) { return endByRungeKutta(of.system, of.start, end); }
 
 struct Distance {
     double q = 0, p = 0;
@@ -81,8 +74,6 @@ Distance distance(const State& a, const State& b) {
     }
     return found;
 }
-double largest(const State& a, const State& b) { return std::max(distance(a, b).q, distance(a, b).p); }
-
 /// max |M^T J M - J| / max |M|^2 of the first steps.
 double defect(const Motion& of, Integrator& integrator) {
     double worst = 0;
@@ -181,7 +172,7 @@ private slots:
         const auto errorWith = [&](int steps) {
             const auto integrator =
                 makePhaseStep(of.system.part<PhaseMechanics>(), moved, 2.0 / steps, SolverPolicy{});
-            return largest(*laws::after(*integrator, of.start, steps), reference);
+            return largestDifference(*laws::after(*integrator, of.start, steps), reference);
         };
         QVERIFY(std::log2(errorWith(48) / errorWith(96)) < 2);
     }
@@ -200,7 +191,7 @@ private slots:
                 {0.1, of.start, 0, {"gauss-collocation", {{"stages", static_cast<double>(s)}}, {}}});
             const State there = *laws::after(*other, of.start, 20),
                         here = ending(of, laws::polynomialPair(s, gaussRule(s)), 20);
-            QVERIFY(largest(here, there) < 1e-14 * 20);  // 2e-15 was measured
+            QVERIFY(largestDifference(here, there) < 1e-14 * 20);  // 2e-15 was measured
         }
     }
     void lobattoIsThePairOfLobatto_data() { gaussIsCollocation_data(); }
@@ -212,22 +203,22 @@ private slots:
             const auto other = makeTableMethod(flowOf(of.system), 0.1, lobattoPair(stages));
             const State there = *laws::after(*other, of.start, 20),
                         here = ending(of, laws::polynomialPair(stages - 1, lobattoRule(stages)), 20);
-            QVERIFY(largest(here, there) < 1e-14 * 20);
+            QVERIFY(largestDifference(here, there) < 1e-14 * 20);
         }
     }
     void aWastedDegreeIsOneLess() {
         const Motion of = motionOf("H1");
         for (int s : {2, 3})
-            QVERIFY(largest(ending(of, laws::polynomialPair(s, lobattoRule(s)), 20),
-                            ending(of, laws::polynomialPair(s - 1, lobattoRule(s)), 20)) < 2e-14);
+            QVERIFY(largestDifference(ending(of, laws::polynomialPair(s, lobattoRule(s)), 20),
+                                      ending(of, laws::polynomialPair(s - 1, lobattoRule(s)), 20)) < 2e-14);
     }
     /// Kick first.
     void theLeftEndIsSymplecticEuler() {
         const Motion of = motionOf("H1");
         const auto euler = findBaseline("symplectic-euler")->make(of.system, {0.02, of.start, 0, {}});
         const Settings left{"radau", {{"nodes", 1.0}, {"end", "left"}}, {}};
-        QVERIFY(largest(ending(of, laws::polynomialPair(1, left), 100), *laws::after(*euler, of.start, 100)) <
-                1e-13);
+        QVERIFY(largestDifference(ending(of, laws::polynomialPair(1, left), 100),
+                                  *laws::after(*euler, of.start, 100)) < 1e-13);
     }
     /// A Lagrangian with a mass that depends on the place, and its Hamiltonian: the same steps where the rule
     /// has as many nodes as the space has degrees.
@@ -242,12 +233,12 @@ private slots:
         for (int s = 1; s <= 4; ++s) {
             const Discretization d = laws::polynomialPair(s, gaussRule(s));
             const State a = ending({lagrangian, start}, d, 40), b = ending({hamiltonian, start}, d, 40);
-            QVERIFY(largest(a, b) < 2e-13);
+            QVERIFY(largestDifference(a, b) < 2e-13);
         }
         // With more nodes they are two schemes of one order.
         const Discretization more = laws::polynomialPair(2, gaussRule(3));
         const double apart =
-            largest(ending({lagrangian, start}, more, 40), ending({hamiltonian, start}, more, 40));
+            largestDifference(ending({lagrangian, start}, more, 40), ending({hamiltonian, start}, more, 40));
         QVERIFY(apart > 1e-12 && apart < 1e-5);
     }
     /// With constant masses every rule makes the steps of the Lagrangian cell.
@@ -257,7 +248,7 @@ private slots:
         for (int s = 1; s <= 3; ++s)
             for (const Settings& rule : {gaussRule(s), gaussRule(s + 1), lobattoRule(s + 1)}) {
                 const Discretization d = laws::polynomialPair(s, rule);
-                QVERIFY(largest(ending({lagrangian, of.start}, d, 40), ending(of, d, 40)) < 1e-13);
+                QVERIFY(largestDifference(ending({lagrangian, of.start}, d, 40), ending(of, d, 40)) < 1e-13);
             }
     }
     /// H linear in p has no Lagrangian: there is nothing that could be transformed.
@@ -301,7 +292,7 @@ private slots:
         QVERIFY(!at("fixed-point", 0.4));
         QVERIFY(at("auto", 0.4).has_value());
         const auto small = at("fixed-point", 0.01), same = at("newton", 0.01);
-        QVERIFY(small && same && largest(*small, *same) < 1e-14);
+        QVERIFY(small && same && largestDifference(*small, *same) < 1e-14);
     }
     void denseOutputIsContinuousAndOfItsOrder() {
         const Motion of = motionOf("H1");
@@ -341,7 +332,7 @@ private slots:
             const auto errorWith = [&](int steps) {
                 const auto integrator =
                     findBaseline("tao")->make(of.system, {2.0 / steps, of.start, 0, keys});
-                return largest(*laws::after(*integrator, of.start, steps), reference);
+                return largestDifference(*laws::after(*integrator, of.start, steps), reference);
             };
             QVERIFY(std::abs(std::log2(errorWith(800) / errorWith(1600)) - order) < 0.3);
         }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -128,6 +129,115 @@ std::vector<double> kinksOf(const Settings& settings, const Formula& formula) {
     return kinks;
 }
 
+bool hasForceOn(const Settings& settings, const std::string& coordinate) {
+    const Value::Object& forces = formulasUnder(settings, "forces");
+    return std::any_of(forces.begin(), forces.end(),
+                       [&](const auto& each) { return each.first == coordinate; });
+}
+
+/// The functions of velocities in some formulas at whose roots their values may jump.
+std::vector<int> switchesOf(Graph& graph, int d) {
+    std::vector<int> switches;
+    for (int node = 0, end = graph.size(); node < end; ++node) {
+        const Graph::Node at = graph.at(node);
+        if (at.kind != Graph::Kind::call || at.operands.empty()) continue;
+        const bool isCompared = at.function == Function::less || at.function == Function::lessOrEqual,
+                   isSwitch = isCompared || at.function == Function::sign || at.function == Function::abs ||
+                              at.function == Function::heaviside;
+        if (!isSwitch) continue;
+        const int first = at.operands[0].node;
+        const int argument = isCompared ? graph.sum(0, {{first, 1}, {at.operands[1].node, -1}}) : first;
+        if (graph.dependsOn({argument}, [d](int symbol) { return symbol > d; })) switches.push_back(argument);
+    }
+    return switches;
+}
+
+/// A force at some places and times, along lines of velocities.
+class ForceAlongVelocities {
+public:
+    explicit ForceAlongVelocities(const ForceModel& model) : model_(model), d_(placeOf(model.d)) {
+        std::mt19937 random(1785);
+        const auto any = [&] { return 0.2 + static_cast<double>(random()) / 4294967296.0; };
+        for (std::vector<double>* all : {&q_, &usual_, &v_, &before_, &after_}) all->resize(d_);
+        for (double& x : q_) x = any();
+        for (double& x : usual_) x = any();
+        sizes_.assign(d_, 0);
+        for (const double sign : {1.0, -1.0}) {
+            const std::vector<double>& f = at(-1, sign, before_);
+            for (std::size_t i = 0; i < d_; ++i) sizes_[i] = std::max(sizes_[i], std::abs(f[i]));
+        }
+    }
+
+    /// With the velocity k at x, or for k < 0 all of them x times what they are.
+    const std::vector<double>& at(int k, double x, std::vector<double>& f) {
+        place(k, x);
+        force(&model_, time, q_.data(), v_.data(), f.data());
+        return f;
+    }
+    double ofTape(const Tape& tape, std::size_t output, int k, double x) {
+        place(k, x);
+        return Run(tape, model_.d, time, q_.data(), v_.data())[output];
+    }
+    /// The coordinate whose force jumps at x; -1: there is none.
+    int jumpAt(int k, double x) {
+        constexpr double beside = 1e-12, large = 1e-3;
+        const double shift = beside * std::max(1.0, std::abs(x));
+        at(k, x - shift, before_);
+        at(k, x + shift, after_);
+        for (std::size_t i = 0; i < d_; ++i)
+            if (std::abs(after_[i] - before_[i]) > large * sizes_[i]) return static_cast<int>(i);
+        return -1;
+    }
+
+private:
+    static constexpr double time = 0.3;
+    void place(int k, double x) {
+        v_ = usual_;
+        if (k >= 0)
+            v_[placeOf(k)] = x;
+        else
+            for (double& v : v_) v *= x;
+    }
+
+    const ForceModel& model_;
+    std::size_t d_;
+    std::vector<double> q_, usual_, v_, before_, after_, sizes_;
+};
+
+/// Throws where a force jumps as a velocity passes a value, at which motion sticks: where it is 0, or all of
+/// them are, and where something that is linear in it, as the speed on a belt, changes its sign.
+void refuseDryFriction(const Settings& settings, const Formula& formula, Roots& roots,
+                       const ForceModel& model) {
+    constexpr int most = 64;
+    const int d = formula.dimension();
+    if (d > most) return;
+    const std::vector<int> switches = switchesOf(roots.graph(), d);
+    const Tape tape = roots.tape(switches);
+    ForceAlongVelocities along(model);
+    for (int line = 0; line <= d; ++line) {
+        const int k = line < d ? line : -1;
+        std::vector<double> places{0};
+        for (std::size_t s = 0; s < switches.size(); ++s) {
+            const double first = along.ofTape(tape, s, k, 0), slope = along.ofTape(tape, s, k, 1) - first;
+            if (slope != 0 && std::isfinite(first / slope)) places.push_back(-first / slope);
+        }
+        for (const double place : places) {
+            const int i = along.jumpAt(k, place);
+            if (i < 0) continue;
+            const std::string& name = formula.coordinates[placeOf(i)];
+            const std::string where = k < 0 ? "the velocities are 0"
+                                            : formula.coordinates[placeOf(k)] + "_t passes " +
+                                                  formatNumber(std::abs(place) < 1e-12 ? 0 : place, 3);
+            throw InvalidScene(hasForceOn(settings, name) ? "/forces/" + name : "/dissipation",
+                               "jumps where " + where +
+                                   ": forces that jump with a velocity, as dry friction does, whose bodies "
+                                   "stick and slip, are not modelled",
+                               "smoothed, tanh(v/eps) in place of the sign of v: it creeps at a rate of eps "
+                               "in place of sticking, and wants steps below eps m / F");
+        }
+    }
+}
+
 }  // namespace
 
 std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
@@ -154,6 +264,7 @@ std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
     Force made;
     made.isTimeDependent = roots.graph().dependsOn(nodes.value, [d](int symbol) { return symbol == d; });
     made.kinks = kinksOf(settings, formula);
+    refuseDryFriction(settings, formula, roots, *model);
     auto entries = std::make_shared<Force::Entries>();
     for (const ForceModel::Entry& e : model->entries) entries->first.push_back({e.i, e.j});
     entries->values = entriesOfForce;

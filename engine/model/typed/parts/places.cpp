@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/parts/part_formulas.hpp"
 
@@ -159,21 +160,6 @@ private:
     bool isTimeDependent_ = false;
 };
 
-/// A number, or a formula in parameters.
-double numberOf(const Value& value, const Formula& formula, const std::string& pointer) {
-    if (value.isNumber()) return value.asNumber();
-    if (!value.isString()) throw InvalidScene(pointer, "must be a number or a formula in parameters");
-    const OwnFormula own(formula, value.asString());
-    const auto symbolic = derivativesOf(own.formula, pointer);
-    const Formula names = withTime(formula, "");
-    Roots roots(names);
-    const int node = roots.adopt(own, symbolic->graph, {symbolic->value}).front();
-    if (!roots.graph().isNumber(node))
-        throw InvalidScene(pointer, "must be a number or a formula in parameters",
-                           "the same at all times and places");
-    return roots.graph().at(node).number;
-}
-
 }  // namespace
 
 std::optional<Constraint> constraintOf(const Settings& settings, const Formula& formula) {
@@ -214,14 +200,20 @@ std::optional<Wall> wallOf(const Settings& settings, const Formula& formula) {
             throw InvalidScene(pointer, "needs its gap, a formula that is positive where motion is possible",
                                R"({"gap": "y", "restitution": 0.8}, or "y" for an elastic wall)");
         if (wall.isObject())
-            for (const auto& [key, value] : wall.asObject())
+            for (const auto& [key, value] : wall.asObject()) {
+                if (key == "friction")
+                    throw InvalidScene(pointer + "/friction",
+                                       "is not modelled: bodies slide on walls, and neither stick nor roll",
+                                       "a wall without friction; along a line that stays, a force that is "
+                                       "smoothed by tanh(v/eps)");
                 if (key != "gap" && key != "restitution")
                     throw InvalidScene(pointer + "/" + key, "unknown key \"" + key + "\"",
                                        suggestName(key, {"gap", "restitution"}));
+            }
         relations.add(name, gap->asString(), wall.isObject() ? pointer + "/gap" : pointer);
         const Value* const restitution = wall.isObject() ? wall.find("restitution") : nullptr;
-        made.restitution.push_back(restitution ? numberOf(*restitution, formula, pointer + "/restitution")
-                                               : 1);
+        made.restitution.push_back(
+            restitution ? numberIn(*restitution, pointer + "/restitution", formula.parameters) : 1);
         if (!(made.restitution.back() >= 0 && made.restitution.back() <= 1))
             throw InvalidScene(pointer + "/restitution",
                                "must be between 0 and 1, got " + formatNumber(made.restitution.back(), 6),
@@ -246,6 +238,17 @@ Wall wallOf(const std::vector<GapText>& gaps, const Formula& formula) {
     made.model = relations.model();
     made.first = first;
     return made;
+}
+
+WallContact contactWith(const Wall& wall) {
+    Constraint gaps;
+    gaps.names = wall.names;
+    gaps.isTimeDependent = wall.isTimeDependent;
+    gaps.model = wall.model;
+    gaps.first = first;
+    gaps.addCurvature = addCurvature;
+    gaps.rates = rates;
+    return {gaps};
 }
 
 }  // namespace extremal::typed

@@ -19,6 +19,7 @@
 #include "engine/model/parts/force.hpp"
 #include "engine/model/parts/rolling.hpp"
 #include "engine/model/parts/wall.hpp"
+#include "engine/model/parts/wall_contact.hpp"
 #include "engine/model/typed/formula.hpp"
 
 namespace extremal::typed {
@@ -35,6 +36,9 @@ struct GapText {
     double restitution = 1;
 };
 Wall wallOf(const std::vector<GapText>& gaps, const Formula& formula);
+
+/// The gaps of a wall that is typed, as constraints for bodies that rest on it.
+WallContact contactWith(const Wall& wall);
 
 /// Coordinates that no constraint, force or wall acts on: whether the momentum of a cyclic one is still kept.
 bool isUntouched(const Settings& settings, const Formula& formula, int coordinate);

@@ -7,8 +7,10 @@
 #include <memory>
 #include <utility>
 
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/typed/node_tape.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape.hpp"
 #include "engine/model/typed/tape_registers.hpp"
@@ -20,7 +22,7 @@ namespace {
 /// Everything the calls need; immutable once made.
 struct PhaseModel {
     std::size_t d = 0;
-    Tape value, gradient, hessian;
+    Tape value, gradient, hessian, force;  ///< force: -H_q of a separable H
     struct Place {
         std::size_t output, at, mirrored;  ///< output of the tape -> two entries of the Hessian
     };
@@ -56,6 +58,37 @@ void hessianAt(const void* model, double t, const double* q, const double* p, do
     std::copy(m.constants.begin(), m.constants.end(), hessian);
     for (const PhaseModel::Place& place : m.places)
         hessian[place.at] = hessian[place.mirrored] = r[place.output];
+}
+
+/// Eight nodes at a time.
+void gradientLanes(const void* model, const double* t, int nodes, const double* q, const double* p,
+                   double* gradients) {
+    const PhaseModel& m = modelOf(model);
+    for (int i = 0; i < nodes; i += 8)
+        runEight(
+            m.gradient,
+            [&](Lanes* r) {
+                for (std::size_t k = 0; k < m.d; ++k) {
+                    r[k] = Lanes::load(q + static_cast<int>(k) * nodes + i);
+                    r[m.d + k] = Lanes::load(p + static_cast<int>(k) * nodes + i);
+                }
+                r[4 * m.d] = Lanes::load(t + i);
+            },
+            [&](std::size_t k, const Lanes& value) {
+                value.store(gradients + static_cast<int>(k) * nodes + i);
+            });
+}
+
+void forceLanes(const void* model, const double* t, int nodes, const double* q, double* f) {
+    const PhaseModel& m = modelOf(model);
+    for (int i = 0; i < nodes; i += 8)
+        runEight(
+            m.force,
+            [&](Lanes* r) {
+                for (std::size_t k = 0; k < m.d; ++k) r[k] = Lanes::load(q + static_cast<int>(k) * nodes + i);
+                r[4 * m.d] = Lanes::load(t + i);
+            },
+            [&](std::size_t k, const Lanes& value) { value.store(f + static_cast<int>(k) * nodes + i); });
 }
 
 /// Velocities have no meaning in H.
@@ -104,8 +137,17 @@ public:
         m.energy = energyAt;
         m.gradient = gradientAt;
         m.hessian = hessianAt;
+        constexpr int few = 16;  // more of them fill the registers of one node alone
+        if (d_ <= few) m.gradients = ForThisMachine<&gradientLanes>::call();
         m.isTimeDependent = graph_.dependsOn({value_}, [&](int s) { return s == formula_.time(); });
         m.inverseMasses = inverseMasses();
+        if (m.isSeparable()) {
+            std::vector<int> forces;
+            for (int i = 0; i < d_; ++i)
+                forces.push_back(graph_.scaled(gradient_[static_cast<std::size_t>(i)], -1));
+            model->force = tape(forces);
+            m.forces = ForThisMachine<&forceLanes>::call();
+        }
         m.model = model;
         for (int i = 0; i < d_; ++i)
             if (graph_.isZero(gradient_[static_cast<std::size_t>(i)])) made.cyclic.push_back(i);

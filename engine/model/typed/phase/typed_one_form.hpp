@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/core/settings.hpp"
-#include "engine/model/one_form.hpp"
+#include "engine/model/first_order/one_form.hpp"
 
 namespace extremal::typed {
 

@@ -4,8 +4,9 @@
 ///
 /// m variables x, an even number. Where half of them, y, have no velocity in L (theta_y = 0), L is
 /// P(q, y) . q' - H(q, y) with the others as q: `places` and `free` are the indices of q and y in x, empty
-/// where there is no such half. Arrays: theta[i], slopes d theta_i / dx_k at i m + k, curvatures
-/// d2 theta_i / dx_k dx_l at (i m + k) m + l; of H gradient[k], Hessian at k m + l.
+/// where there is no such half, also not after a function's differential is taken off the form. Arrays:
+/// theta[i], slopes d theta_i / dx_k at i m + k, curvatures d2 theta_i / dx_k dx_l at (i m + k) m + l; of H
+/// gradient[k], Hessian at k m + l.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/model/mechanics.hpp"
+#include "engine/model/first_order/first_order.hpp"
 #include "engine/model/parts.hpp"
 #include "engine/model/phase_mechanics.hpp"
 
@@ -31,20 +32,23 @@ struct OneForm {
     void (*energy)(const void*, const double* x, double* value, double* gradient, double* hessian) = nullptr;
 
     std::vector<int> places, free;  ///< q and y
+    /// First argument of `form` for theta - d chi, in which y has no velocity; null where theta is so itself.
+    std::shared_ptr<const void> gauged;
     bool hasPlane() const { return !places.empty(); }
+    const void* planeModel() const { return gauged ? gauged.get() : model.get(); }
 };
 
-/// The equations of a one-form at a state, with buffers of their own.
-class OneFormEquations {
+/// The equations of a one-form at a state.
+class OneFormEquations final : public FirstOrderEquations {
 public:
     explicit OneFormEquations(const OneForm& of);
 
     /// Om(x), entry (i, j).
     const Eigen::MatrixXd& form(const double* x);
     /// x' = Om^{-1} grad H; false where Om is singular.
-    bool rate(const double* x, double* dx);
+    bool rate(const double* x, double* dx) override;
     /// d x' / dx, entry (i, k); null where Om is singular.
-    const Eigen::MatrixXd* jacobian(const double* x);
+    const Eigen::MatrixXd* jacobian(const double* x) override;
 
 private:
     OneForm of_;
@@ -53,13 +57,7 @@ private:
     Eigen::MatrixXd form_, hessian_, jacobian_;
 };
 
-/// x' behind the calls of methods for first-order equations (engine/baseline): half of the variables in the
-/// place of q, half in that of p, whatever they are. Null: `jet`, `velocity` and `gradient`.
-Mechanics<double> flowOf(const OneForm& of);
-/// Problems with equations of first order that need not be canonical.
-inline Takes firstOrderProblems() { return flowProblems().with<OneForm>(); }
-/// The one-form behind what flowOf() has made; null for others.
-const OneForm* oneFormOf(const Mechanics<double>& mechanics);
+FirstOrder firstOrderOf(const OneForm& of);
 
 /// The Hamiltonian of (q, p), p = P(q, y), of a form with a plane: H(q, Y(q, p)), where Y is found by
 /// Newton's method from the place that this thread has been told last. Not a number where it finds none.
@@ -67,9 +65,6 @@ const OneForm* oneFormOf(const Mechanics<double>& mechanics);
 /// With F = H - P . V stationary in y and V, d H~/dp = V, d H~/dq = F_q, and the Hessian is the Schur
 /// complement of that of F: P_y is inverted, and no formula for Y is needed.
 PhaseMechanics canonicalOf(const OneForm& of);
-/// x' = f(x) as the equations of H = lambda . f(x), which is linear in its momenta lambda: of a form without
-/// a plane. Started with lambda = 0 the momenta stay 0, and are not evaluated.
-PhaseMechanics fieldOf(const OneForm& of);
 /// Where Newton's method begins on this thread, for what canonicalOf() has made: y of a state near by.
 void setGuess(const PhaseMechanics& canonical, const double* y);
 /// Y(q, p); false where it is not found.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/one_form.hpp"
-
-#include <Eigen/LU>
+#include "engine/model/first_order/one_form.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
+
+#include "engine/core/algebra/lu.hpp"
+#include "engine/core/corrections.hpp"
+#include "engine/core/own_buffers.hpp"
 
 namespace extremal {
 namespace {
@@ -24,42 +24,6 @@ struct FormFlow {
     OneForm of;
     long long id;
 };
-std::atomic<long long> nextForm{0};
-
-/// The buffers of this thread; one set is kept, since a thread integrates one system at a time.
-OneFormEquations& ownEquations(const FormFlow& flow) {
-    thread_local std::optional<OneFormEquations> own;
-    thread_local long long id = -1;
-    if (id != flow.id) {
-        own.emplace(flow.of);
-        id = flow.id;
-    }
-    return *own;
-}
-
-bool formFlow(const void* model, const double&, const double* q, const double* p, double* qdot,
-              double* pdot) {
-    const auto& flow = *static_cast<const FormFlow*>(model);
-    const int half = flow.of.variables / 2;
-    thread_local std::vector<double> x, dx;
-    x.assign(q, q + half);
-    x.insert(x.end(), p, p + half);
-    dx.resize(x.size());
-    if (!ownEquations(flow).rate(x.data(), dx.data())) return false;
-    std::copy_n(dx.begin(), half, qdot);
-    std::copy_n(dx.begin() + half, half, pdot);
-    return true;
-}
-double formEnergy(const void* model, const double&, const double* q, const double* p) {
-    const auto& flow = *static_cast<const FormFlow*>(model);
-    const int half = flow.of.variables / 2;
-    thread_local std::vector<double> x;
-    x.assign(q, q + half);
-    x.insert(x.end(), p, p + half);
-    double value = 0;
-    flow.of.energy(flow.of.model.get(), x.data(), &value, nullptr, nullptr);
-    return value;
-}
 
 /// (q, p) -> y and the derivatives of H~.
 class Canonical {
@@ -87,26 +51,26 @@ public:
 
     /// P(q, y) = p for y_, from the guess.
     bool solve(const double* q, const double* p) {
-        constexpr int most = 50;
-        constexpr double epsilon = std::numeric_limits<double>::epsilon();
         y_ = guess_;
-        double last = std::numeric_limits<double>::infinity();
-        for (int iteration = 0; iteration < most; ++iteration) {
+        StepReport report;
+        const CorrectionLimits limits{.last = 2 * CorrectionLimits::epsilon, .roundOff = 1e-12};
+        const Outcome outcome = solveByCorrections(limits, {}, report, [&](int, double) {
             place(q);
-            of_.form(of_.model.get(), x_.data(), theta_.data(), slopes_.data(), nullptr);
+            of_.form(of_.planeModel(), x_.data(), theta_.data(), slopes_.data(), nullptr);
             split();
             for (int j = 0; j < n_; ++j) r_(j) = theta_(at(of_.places, j)) - p[j];
             lu_.compute(Py_);
-            if (!r_.allFinite() || !Py_.allFinite() || isSingular(lu_)) return false;
+            if (!r_.allFinite() || !Py_.allFinite() || isSingular(lu_))
+                return Correction{.outcome = Outcome::singular};
             r_ = lu_.solve(r_);
             y_ -= r_;
-            double size = 0;
+            double size = 0;  // of each by itself
             for (int j = 0; j < n_; ++j)
                 size = std::max(size, std::abs(r_(j)) / std::max(std::abs(y_(j)), 1e-300));
-            if (size <= 2 * epsilon || (size < 1e-12 && size >= last / 4)) return y_.allFinite();
-            last = size;
-        }
-        return last < 1e-10;
+            return Correction{size, 1};
+        });
+        const bool isNear = outcome == Outcome::diverged && report.residual < 1e-10;
+        return isNear || (outcome == Outcome::converged && y_.allFinite());
     }
     const Vector& y() const { return y_; }
 
@@ -175,7 +139,7 @@ private:
     /// P_y, P_q, V = P_y^{-T} H_y, and the derivatives of H, at (q, y_).
     void derivatives(const double* q, double* curvatures) {
         place(q);
-        of_.form(of_.model.get(), x_.data(), theta_.data(), slopes_.data(), curvatures);
+        of_.form(of_.planeModel(), x_.data(), theta_.data(), slopes_.data(), curvatures);
         split();
         double value = 0;
         of_.energy(of_.model.get(), x_.data(), &value, slope_.data(), curvatures ? second_.data() : nullptr);
@@ -195,13 +159,7 @@ private:
 
 Canonical& ownCanonical(const void* model) {
     const auto& flow = *static_cast<const FormFlow*>(model);
-    thread_local std::optional<Canonical> own;
-    thread_local long long id = -1;
-    if (id != flow.id) {
-        own.emplace(flow.of);
-        id = flow.id;
-    }
-    return *own;
+    return ownBuffers<Canonical>(flow.id, flow.of);
 }
 
 double canonicalEnergy(const void* model, double, const double* q, const double* p) {
@@ -223,27 +181,6 @@ void canonicalHessian(const void* model, double, const double* q, const double* 
         own.hessian(q, hessian);
     else
         std::fill_n(hessian, n * n, std::numeric_limits<double>::quiet_NaN());
-}
-
-double noEnergy(const void*, double, const double*, const double*) { return 0; }
-void fieldGradient(const void* model, double, const double* q, const double*, double* gradient) {
-    const auto& flow = *static_cast<const FormFlow*>(model);
-    const int m = flow.of.variables;
-    std::fill_n(gradient, m, 0.0);
-    if (!ownEquations(flow).rate(q, gradient + m))
-        std::fill_n(gradient + m, m, std::numeric_limits<double>::quiet_NaN());
-}
-void fieldHessian(const void* model, double, const double* q, const double*, double* hessian) {
-    const auto& flow = *static_cast<const FormFlow*>(model);
-    const int m = flow.of.variables;
-    Eigen::Map<Eigen::MatrixXd> H(hessian, 2 * m, 2 * m);
-    H.setZero();
-    const Eigen::MatrixXd* const slope = ownEquations(flow).jacobian(q);
-    if (slope)
-        H.bottomLeftCorner(m, m) = *slope;
-    else
-        H.bottomLeftCorner(m, m).setConstant(std::numeric_limits<double>::quiet_NaN());
-    H.topRightCorner(m, m) = H.bottomLeftCorner(m, m).transpose();
 }
 
 }  // namespace
@@ -296,36 +233,15 @@ const Eigen::MatrixXd* OneFormEquations::jacobian(const double* x) {
     return &jacobian_;
 }
 
-Mechanics<double> flowOf(const OneForm& of) {
-    Mechanics<double> made;
-    made.dimension = of.variables / 2;
-    made.model = std::make_shared<const FormFlow>(FormFlow{of, nextForm++});
-    made.energy = formEnergy;
-    made.flow = formFlow;
-    return made;
-}
-
-const OneForm* oneFormOf(const Mechanics<double>& mechanics) {
-    return mechanics.flow == formFlow ? &static_cast<const FormFlow*>(mechanics.model.get())->of : nullptr;
-}
+FirstOrder firstOrderOf(const OneForm& of) { return firstOrderBy<OneFormEquations>(of); }
 
 PhaseMechanics canonicalOf(const OneForm& of) {
     PhaseMechanics made;
     made.dimension = static_cast<int>(of.places.size());
-    made.model = std::make_shared<const FormFlow>(FormFlow{of, nextForm++});
+    made.model = std::make_shared<const FormFlow>(FormFlow{of, nextModelId()});
     made.energy = canonicalEnergy;
     made.gradient = canonicalGradient;
     made.hessian = canonicalHessian;
-    return made;
-}
-
-PhaseMechanics fieldOf(const OneForm& of) {
-    PhaseMechanics made;
-    made.dimension = of.variables;
-    made.model = std::make_shared<const FormFlow>(FormFlow{of, nextForm++});
-    made.energy = noEnergy;
-    made.gradient = fieldGradient;
-    made.hessian = fieldHessian;
     return made;
 }
 

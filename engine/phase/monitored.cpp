@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/phase/monitored.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/core/own_buffers.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/phase/flow_jacobian.hpp"
+
+namespace extremal {
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+/// H(q, p) = p . v - L.
+struct LegendreModel {
+    Mechanics<double> mechanics;
+    long long id;
+};
+struct LegendreRoom {
+    explicit LegendreRoom(const Mechanics<double>& of)
+        : jacobian(of), qdot(Vector::Zero(of.dimension)), pdot(qdot) {}
+    FlowJacobian jacobian;
+    Vector qdot, pdot;
+};
+const Mechanics<double>& mechanicsOf(const void* model) {
+    return static_cast<const LegendreModel*>(model)->mechanics;
+}
+LegendreRoom& roomOf(const void* model) {
+    return ownBuffers<LegendreRoom>(static_cast<const LegendreModel*>(model)->id, mechanicsOf(model));
+}
+
+double legendreEnergy(const void* model, double t, const double* q, const double* p) {
+    const Mechanics<double>& m = mechanicsOf(model);
+    return m.energy(m.model.get(), t, q, p);
+}
+void legendreGradient(const void* model, double t, const double* q, const double* p, double* gradient) {
+    const Mechanics<double>& m = mechanicsOf(model);
+    const int d = m.dimension;
+    if (!m.flow(m.model.get(), t, q, p, gradient + d, gradient))
+        return void(std::fill_n(gradient, 2 * d, std::numeric_limits<double>::quiet_NaN()));
+    for (int k = 0; k < d; ++k) gradient[k] = -gradient[k];
+}
+void legendreHessian(const void* model, double t, const double* q, const double* p, double* hessian) {
+    const Mechanics<double>& m = mechanicsOf(model);
+    const int d = m.dimension;
+    LegendreRoom& room = roomOf(model);
+    Eigen::Map<Matrix> H(hessian, 2 * d, 2 * d);
+    if (!m.velocity(m.model.get(), t, q, p, room.qdot.data()))
+        return void(H.setConstant(std::numeric_limits<double>::quiet_NaN()));
+    const Matrix& slope = room.jacobian.evaluate(t, q, p, room.qdot.data());
+    H.bottomRows(d) = slope.topRows(d);
+    H.topRows(d) = -slope.bottomRows(d);
+}
+
+struct MonitoredModel {
+    PhaseMechanics H;
+    std::shared_ptr<const Monitor> monitor;
+    long long id;
+};
+struct MonitoredRoom {
+    explicit MonitoredRoom(const MonitoredModel& of)
+        : slope(Vector::Zero(2 * of.H.dimension)),
+          monitorSlope(slope),
+          hessian(Matrix::Zero(slope.size(), slope.size())),
+          monitorHessian(hessian) {}
+    Vector slope, monitorSlope;
+    Matrix hessian, monitorHessian;
+};
+
+const MonitoredModel& monitored(const void* model) { return *static_cast<const MonitoredModel*>(model); }
+MonitoredRoom& monitoredRoom(const MonitoredModel& m) { return ownBuffers<MonitoredRoom>(m.id, m); }
+
+double monitoredEnergy(const void* model, double, const double* q, const double* p) {
+    const MonitoredModel& m = monitored(model);
+    return (*m.monitor)(q + 1, p + 1) * (m.H.energy(m.H.model.get(), 0, q + 1, p + 1) + p[0]);
+}
+void monitoredGradient(const void* model, double, const double* q, const double* p, double* gradient) {
+    const MonitoredModel& m = monitored(model);
+    const int d = m.H.dimension;
+    MonitoredRoom& own = monitoredRoom(m);
+    double g = 0;
+    m.monitor->evaluate(q + 1, p + 1, &g, own.monitorSlope.data(), nullptr);
+    m.H.gradient(m.H.model.get(), 0, q + 1, p + 1, own.slope.data());
+    const double off = m.H.energy(m.H.model.get(), 0, q + 1, p + 1) + p[0];
+    gradient[0] = 0;
+    gradient[d + 1] = g;
+    for (int k = 0; k < d; ++k) {
+        gradient[1 + k] = g * own.slope(k) + off * own.monitorSlope(k);
+        gradient[d + 2 + k] = g * own.slope(d + k) + off * own.monitorSlope(d + k);
+    }
+}
+void monitoredHessian(const void* model, double, const double* q, const double* p, double* hessian) {
+    const MonitoredModel& m = monitored(model);
+    const int d = m.H.dimension;
+    MonitoredRoom& own = monitoredRoom(m);
+    double g = 0;
+    m.monitor->evaluate(q + 1, p + 1, &g, own.monitorSlope.data(), own.monitorHessian.data());
+    m.H.gradient(m.H.model.get(), 0, q + 1, p + 1, own.slope.data());
+    m.H.hessian(m.H.model.get(), 0, q + 1, p + 1, own.hessian.data());
+    const double off = m.H.energy(m.H.model.get(), 0, q + 1, p + 1) + p[0];
+    own.hessian *= g;
+    own.hessian.noalias() += own.monitorSlope * own.slope.transpose();
+    own.hessian.noalias() += own.slope * own.monitorSlope.transpose();
+    own.hessian.noalias() += off * own.monitorHessian;
+    Eigen::Map<Matrix> K(hessian, 2 * d + 2, 2 * d + 2);
+    K.setZero();
+    K.block(1, 1, d, d) = own.hessian.topLeftCorner(d, d);
+    K.block(1, d + 2, d, d) = own.hessian.topRightCorner(d, d);
+    K.block(d + 2, 1, d, d) = own.hessian.bottomLeftCorner(d, d);
+    K.block(d + 2, d + 2, d, d) = own.hessian.bottomRightCorner(d, d);
+    K.col(d + 1).segment(1, d) = own.monitorSlope.head(d);
+    K.col(d + 1).segment(d + 2, d) = own.monitorSlope.tail(d);
+    K.row(d + 1) = K.col(d + 1).transpose();
+}
+
+System withTime(const System& of, PhaseMechanics motion) {
+    System s;
+    s.id = of.id;
+    s.coordinates.push_back({"t", "time", "t", of.timeUnit, ""});
+    s.coordinates.insert(s.coordinates.end(), of.coordinates.begin(), of.coordinates.end());
+    s.parts.set(std::move(motion));
+    return s;
+}
+
+[[noreturn]] void refuseValue(double g, const State& start) {
+    throw InvalidScene("/monitor",
+                       "is " + formatNumber(g, 6) + " at the start, t = " + formatNumber(start.t) +
+                           ": steps in proportion to it need a positive finite number",
+                       "a function that is positive along the motion, or another start");
+}
+
+}  // namespace
+
+bool hasHamiltonian(const System& system) {
+    return system.isMovedOnlyBy<Mechanical>() || system.isMovedOnlyBy<PhaseMechanics>();
+}
+
+PhaseMechanics hamiltonianFrom(const System& system) {
+    if (const PhaseMechanics* const given = system.parts.find<PhaseMechanics>()) return *given;
+    const Mechanical& mechanics = system.mechanics();
+    PhaseMechanics made;
+    made.dimension = mechanics.dimension;
+    made.isTimeDependent = mechanics.isTimeDependent;
+    made.model = std::make_shared<const LegendreModel>(LegendreModel{mechanics, nextModelId()});
+    made.energy = legendreEnergy;
+    made.gradient = legendreGradient;
+    made.hessian = legendreHessian;
+    return made;
+}
+
+System monitoredKind(const System& system) {
+    PhaseMechanics motion;
+    motion.dimension = system.dimension() + 1;
+    return withTime(system, std::move(motion));
+}
+
+MonitoredProblem monitoredProblem(const System& system, const Settings& monitor, const State& start,
+                                  double first) {
+    const PhaseMechanics H = hamiltonianFrom(system);
+    if (H.isTimeDependent)
+        throw InvalidScene("/monitor",
+                           "needs a Hamiltonian without explicit time: with its energy at t = " +
+                               formatNumber(start.t) + " the steps would follow another motion",
+                           "fixed steps, or an adaptive code such as dopri5");
+    const int d = H.dimension;
+    std::shared_ptr<const Monitor> g = makeMonitor(monitor, system, H);
+    const bool isKnown = !start.x.empty();
+    const double *const q = start.x.data(), *const p = isKnown ? q + d : q;
+    const double atStart = isKnown ? (*g)(q, p) : 1;
+    if (!(atStart > 0) || !std::isfinite(atStart)) refuseValue(atStart, start);
+    if (const double longest = monitor.number("max"); longest > 0) {
+        const double ratio = longest / std::abs(first);
+        if (!(ratio > 1))
+            throw InvalidScene("/monitor/max",
+                               "must be longer than the first step, " + formatNumber(std::abs(first)) +
+                                   ", got " + formatNumber(longest),
+                               "a shorter first step");
+        g = boundedMonitor(std::move(g), d, atStart * (ratio - 1));
+    }
+    PhaseMechanics K;
+    K.dimension = d + 1;
+    K.model = std::make_shared<const MonitoredModel>(MonitoredModel{H, g, nextModelId()});
+    K.energy = monitoredEnergy;
+    K.gradient = monitoredGradient;
+    K.hessian = monitoredHessian;
+    State of{0, 0, {}, {}};
+    if (!isKnown) return {withTime(system, std::move(K)), std::move(of), H, std::move(g)};
+    of.x.push_back(start.t);
+    of.x.insert(of.x.end(), q, p);
+    of.x.push_back(-H.energy(H.model.get(), start.t, q, p));
+    of.x.insert(of.x.end(), p, p + d);
+    return {withTime(system, std::move(K)), std::move(of), H, std::move(g)};
+}
+
+bool isEven(const Monitor& monitor, const State& at) {
+    constexpr double roundOff = 1e-9;
+    const std::size_t d = at.x.size() / 2;
+    std::vector<double> there(at.x.begin() + static_cast<std::ptrdiff_t>(d), at.x.end()), back(d);
+    double size = 0;
+    for (const double each : there) size = std::max(size, std::abs(each));
+    // Momenta of which none is zero, and which no symmetry of a start hides.
+    for (std::size_t k = 0; k < d; ++k) {
+        there[k] += (size > 0 ? size : 1) * (0.1 + 0.03 * static_cast<double>(k % 7));
+        back[k] = -there[k];
+    }
+    const double one = monitor(at.x.data(), there.data()), other = monitor(at.x.data(), back.data());
+    return !(std::abs(one - other) > roundOff * std::abs(one));
+}
+
+}  // namespace extremal
