@@ -72,6 +72,7 @@ public:
             part->setStep(tau * h_);
         }
         State at = start_;
+        part->begin(at);  // what it remembers of other steps does not change what is seen of this one
         advanceForDenseOutput(*part, at, start_.t + tau * h_);
         std::copy(at.x.begin(), at.x.end(), x.begin());
     }
@@ -91,12 +92,13 @@ public:
     }
     void measure(const State&, double* values) const override {
         const std::span<const Quantity> all = schemes_.front()->quantities();
-        const std::size_t action = *indexOf(all, "action");
+        const std::optional<std::size_t> action = indexOf(all, "action");
+        if (!action) return;  // nothing to say
         std::vector<double> each(all.size());
         values[0] = 0;
         for (const auto& scheme : schemes_) {
             scheme->measure(end_, each.data());
-            values[0] += each[action];
+            values[0] += each[*action];
         }
     }
 

@@ -16,13 +16,14 @@
 #include "engine/core/dimension.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/integrator/shared_force.hpp"
+#include "engine/integrator/variation/transposed_step.hpp"
 
 namespace extremal {
 namespace {
 
 /// The step of a discretization as an Integrator.
 template <int D>
-class Condensed final : public Integrator, public SharesForce {
+class Condensed final : public Integrator, public SharesForce, public TransposedStep {
 public:
     Condensed(const Mechanics<double>& mechanics, TablesOfStep tables, double step, SolverPolicy policy,
               std::vector<LagrangianTerm<double>> parts)
@@ -63,6 +64,9 @@ public:
     std::size_t tangentSize() const override { return static_cast<std::size_t>(2 * mechanics_.dimension); }
     bool applyTangent(std::span<double> W) override {
         return step_.applyTangent(start_, W.data(), static_cast<int>(W.size() / tangentSize()));
+    }
+    bool applyTransposed(std::span<double> W) override {
+        return step_.applyTransposed(start_, W.data(), static_cast<int>(W.size() / tangentSize()));
     }
 
     /// E_d = -dS/dh at the solution, and S; not where the functions change with the step, or L with time.
@@ -135,12 +139,12 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
     return policy;
 }
 
-std::unique_ptr<Integrator> makeCondensed(const System& system, TablesOfStep tables, double step,
-                                          const SolverPolicy& policy,
+std::unique_ptr<Integrator> makeCondensed(const Mechanics<double>& mechanics, TablesOfStep tables,
+                                          double step, const SolverPolicy& policy,
                                           std::vector<LagrangianTerm<double>> parts) {
-    return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
-        return std::make_unique<Condensed<decltype(d)::value>>(system.mechanics(), std::move(tables), step,
-                                                               policy, std::move(parts));
+    return withDimension(mechanics.dimension, [&](auto d) -> std::unique_ptr<Integrator> {
+        return std::make_unique<Condensed<decltype(d)::value>>(mechanics, std::move(tables), step, policy,
+                                                               std::move(parts));
     });
 }
 

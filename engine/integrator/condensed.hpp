@@ -21,8 +21,8 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system);
 /// One table for all coordinates or one for each, for a step size.
 using TablesOfStep = std::function<std::vector<Table<double>>(double step)>;
 /// `parts`: what the nodes of tables with parts are for.
-std::unique_ptr<Integrator> makeCondensed(const System& system, TablesOfStep tables, double step,
-                                          const SolverPolicy& policy,
+std::unique_ptr<Integrator> makeCondensed(const Mechanics<double>& mechanics, TablesOfStep tables,
+                                          double step, const SolverPolicy& policy,
                                           std::vector<LagrangianTerm<double>> parts = {});
 
 }  // namespace extremal

@@ -44,8 +44,6 @@
 /// n x d.
 #pragma once
 
-#include <Eigen/LU>
-
 #include <optional>
 #include <stop_token>
 #include <type_traits>
@@ -54,11 +52,12 @@
 #include <vector>
 
 #include "engine/action/table.hpp"
+#include "engine/core/algebra/lu.hpp"
+#include "engine/core/algebra/small_product.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/core/text/archive.hpp"
 #include "engine/integrator/force_defect.hpp"
 #include "engine/integrator/node_iteration.hpp"
-#include "engine/integrator/small_product.hpp"
 #include "engine/integrator/velocity_iteration.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/solve/correction_size.hpp"
@@ -103,6 +102,8 @@ public:
     /// W <- M W for columns (dq, dp), with the tangent map M of the last step, which began at t
     /// (galerkin_step_tangent.hpp). False where its equations are singular.
     bool applyTangent(const T& t, T* W, int columns);
+    /// W <- M^T W for columns of derivatives by (q_1, p_1), with one transposed solve for each.
+    bool applyTransposed(const T& t, T* W, int columns);
 
     /// Forgets the previous curve: the next step starts from a Taylor guess.
     void restart() {
@@ -207,6 +208,7 @@ private:
     void add(T* q, T* p);
     bool linearise(const T& t);
     void vary(const T* dq0, bool movesY);
+    void pullBack(const T* byMomentum);
 
     Mechanics<T> mechanics_;
     std::vector<LagrangianTerm<T>> parts_;  ///< empty: the whole Lagrangian at every node

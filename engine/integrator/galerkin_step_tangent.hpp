@@ -8,6 +8,10 @@
 ///     dq_1 = dq_0 + dY_{m-1},    dp_1 = dp_0 + h sum_i b_i dL_q(i).
 /// K is assembled and factored anew: the factor that Newton's method ends with belongs to its starting value,
 /// and gives M with errors of 1e-7 to 1e-3.
+///
+/// Derivatives (l_q, l_p) of a number by (q_1, p_1) go the other way, l <- M^T l. With A = h sum_i b_i L_q(i)
+/// and w, for which the derivative of Phi = l_p . A - w . R + l_q . Y_{m-1} by Y vanishes,
+///     K^T w = e_{m-1} x l_q + (dA/dY)^T l_p,    l_q' = l_q + dPhi/dq_0,    l_p' = l_p - w_{m-1}.
 #pragma once
 
 #include "engine/integrator/galerkin_step.hpp"
@@ -74,6 +78,58 @@ bool GalerkinStep<T, D>::applyTangent(const T& t, T* W, int columns) {
         for (int k = 0; k < dim; ++k) {
             w[k] -= delta_(offset(k) + m(k) - 1);
             w[dim + k] = static_cast<T>(Accumulator(w[dim + k]) + impulse_[static_cast<std::size_t>(k)]);
+        }
+    }
+    return true;
+}
+
+/// d(l_p . A - w . R) by Y into R_ and by q_0 into dq_, w = delta_.
+template <class T, int D>
+void GalerkinStep<T, D>::pullBack(const T* byMomentum) {
+    const int dim = d();
+    R_.setZero();
+    dq_.setZero();
+    for (int i = 0; i < n(); ++i) {
+        placeQ_.setZero();
+        placeV_.setZero();
+        for (int k = 0; k < dim; ++k) {
+            const int last = m(k) - 1;
+            const T& w = delta_(offset(k) + last);
+            T onLq = byMomentum[k] - w, onLv(0);  // R_{m-1} = p_0 + A - G_{m-1}
+            for (int a = 0; a <= last; ++a) {
+                const T test = a < last ? -delta_(offset(k) + a) : w;
+                onLq += functions(k).value(i, a) * test;
+                onLv += functions(k).slope(i, a) * test;
+            }
+            onLq *= weight_(i);
+            onLv *= weight_(i);
+            for (int l = 0; l < dim; ++l) {
+                const int onQ = k * 2 * dim + l, onV = (dim + k) * 2 * dim + l;
+                placeQ_(l) += onLq * hessians_(i, onQ) + onLv * hessians_(i, onV);
+                placeV_(l) += onLq * hessians_(i, onQ + dim) + onLv * hessians_(i, onV + dim);
+            }
+        }
+        dq_ += placeQ_;
+        for (int l = 0; l < dim; ++l)
+            for (int a = 0; a < m(l); ++a)
+                R_(offset(l) + a) +=
+                    functions(l).value(i, a) * placeQ_(l) + functions(l).slope(i, a) * placeV_(l);
+    }
+}
+
+template <class T, int D>
+bool GalerkinStep<T, D>::applyTransposed(const T& t, T* W, int columns) {
+    const int dim = d();
+    if (!linearise(t)) return false;
+    for (T* w = W; columns > 0; --columns, w += 2 * dim) {
+        delta_.setZero();
+        pullBack(w + dim);
+        for (int k = 0; k < dim; ++k) R_(offset(k) + m(k) - 1) += w[k];
+        delta_ = lu_.transpose().solve(R_);
+        pullBack(w + dim);
+        for (int k = 0; k < dim; ++k) {
+            w[k] += dq_(k);
+            w[dim + k] -= delta_(offset(k) + m(k) - 1);
         }
     }
     return true;

@@ -55,17 +55,7 @@ public:
     /// Takes steps until `nodes` is full, or `count` of them, or to the first trouble; each node reached is
     /// appended. Only on fixed grids; `clock` gives the time of each node. Overridden where a step is so
     /// cheap that this boundary would be felt.
-    virtual StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count, const Clock& clock) {
-        StepReport report;
-        for (std::size_t i = 0; i < count && nodes.size() < nodes.capacity(); ++i) {
-            report = advance(state, clock.at(state.node + 1));
-            if (report.outcome != Outcome::converged) break;
-            nodes.push(state, report);
-            if (double* values = nodes.lastQuantities()) measure(state, values);
-        }
-        return report;
-    }
-
+    virtual StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count, const Clock& clock);
     /// Whether advance() looks for infinities itself and then leaves the state as it was, with the outcome
     /// notFinite: for states so wide that a run should neither copy them before a step nor read them after
     /// it.

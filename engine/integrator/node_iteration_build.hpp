@@ -2,12 +2,11 @@
 /// The definition of NodeIteration for any scalar. Included where GalerkinStep is instantiated.
 #pragma once
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <limits>
 #include <type_traits>
 
+#include "engine/core/algebra/lu.hpp"
 #include "engine/integrator/node_iteration.hpp"
 #include "engine/solve/fixed_point_policy.hpp"
 #include "engine/solve/newton_policy.hpp"

@@ -2,28 +2,30 @@
 #include "engine/integrator/stability.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace extremal {
 
-double firstInstability(const std::function<double(double)>& halfTrace, double resolution) {
-    constexpr double slack = 1e-9, end = 60;
-    auto isUnstable = [&](double z) { return !(std::abs(halfTrace(z)) <= 1 + slack * (1 + z * z)); };
+StabilityEdge firstInstability(const std::function<bool(double)>& isStable, const StabilityScan& scan) {
+    constexpr double unit = std::numeric_limits<double>::epsilon();
     double low = 0;
-    for (double z = 0.01; z < end; z += z < 12 ? resolution : 5 * resolution) {
-        if (!isUnstable(z)) {
+    for (double z = 0.01; z < scan.end; z = z < scan.fineEnd ? z + scan.fine : z * scan.ratio + scan.coarse) {
+        if (isStable(z)) {
             low = z;
             continue;
         }
         double high = z;
-        if (low == 0) return 0;
-        for (int i = 0; i < 50; ++i) {
+        for (int i = 0; i < 60 && low > 0 && high - low > 2 * unit * high; ++i) {
             const double middle = (low + high) / 2;
-            (isUnstable(middle) ? high : low) = middle;
+            (isStable(middle) ? low : high) = middle;
         }
-        return low;
+        return {low, high};
     }
-    return std::numeric_limits<double>::infinity();
+    return {low};
+}
+
+bool hasBoundedPowers(double halfTrace, double z) {
+    constexpr double slack = 1e-9;
+    return std::abs(halfTrace) <= 1 + slack * (1 + z * z);  // false where it is not a number
 }
 
 }  // namespace extremal

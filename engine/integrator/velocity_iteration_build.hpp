@@ -2,12 +2,11 @@
 /// The definition of VelocityIteration for any scalar. Included where GalerkinStep is instantiated.
 #pragma once
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <limits>
 #include <type_traits>
 
+#include "engine/core/algebra/lu.hpp"
 #include "engine/integrator/node_iteration_build.hpp"
 #include "engine/integrator/velocity_iteration.hpp"
 

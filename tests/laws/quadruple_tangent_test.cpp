@@ -58,10 +58,10 @@ Table<Quad> tableOf(int degree, bool isGauss) {
                      isGauss ? gauss<Quad>(degree) : lobatto<Quad>(degree + 1));
 }
 
-/// The largest entries of M - D and M^T J M - J.
+/// The largest entries of M - D, M^T J M - J and of D^T less what transposed solves give.
 template <class Model>
-std::pair<double, double> condensed(const Model& model, int degree, bool isGauss, const Quad& h,
-                                    const std::array<Quad, 4>& start) {
+std::array<double, 3> condensed(const Model& model, int degree, bool isGauss, const Quad& h,
+                                const std::array<Quad, 4>& start) {
     const Mechanics<Quad> mechanics = bindMechanics<Quad>(model);
     const Quad t = Quad(3) / 10;
     const auto to = [&](const Point<4>& by) {
@@ -78,8 +78,12 @@ std::pair<double, double> condensed(const Model& model, int degree, bool isGauss
     if (!step.applyTangent(t, M.data(), 4)) throw std::runtime_error("no tangent map");
     J.topRightCorner(2, 2).setIdentity();
     J.bottomLeftCorner(2, 2) = -Map<2>::Identity();
-    return {static_cast<double>((M - differenced<4>(to)).cwiseAbs().maxCoeff()),
-            static_cast<double>((M.transpose() * J * M - J).cwiseAbs().maxCoeff())};
+    Map<4> T = Map<4>::Identity();
+    if (!step.applyTransposed(t, T.data(), 4)) throw std::runtime_error("no tangent map");
+    const Map<4> D = differenced<4>(to);
+    return {static_cast<double>((M - D).cwiseAbs().maxCoeff()),
+            static_cast<double>((M.transpose() * J * M - J).cwiseAbs().maxCoeff()),
+            static_cast<double>((T - D.transpose()).cwiseAbs().maxCoeff())};
 }
 
 }  // namespace
@@ -102,12 +106,13 @@ private slots:
         QFETCH(bool, isKepler);
         QFETCH(int, degree);
         QFETCH(bool, isGauss);
-        const auto [off, defect] =
+        const auto [off, defect, transposed] =
             isKepler ? condensed(KeplerModel{}, degree, isGauss, Quad(1) / 20, {Quad(2) / 5, 0, 0, 2})
                      : condensed(Coupled{}, degree, isGauss, Quad(1) / 10,
                                  {Quad(7) / 10, Quad(3) / 10, Quad(2) / 5, Quad(-1) / 2});
-        qInfo("M - differences %.1e, defect %.1e", off, defect);
+        qInfo("M - differences %.1e, defect %.1e, transposed - differences %.1e", off, defect, transposed);
         QVERIFY(off < 1e-12);  // 1e-20 to 1e-18
+        QVERIFY(transposed < 1e-12);
         QVERIFY(defect < 1e-28);
     }
     void bodies_data() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The tangent map of a step: against differences of the step, and against the symplectic form, for every
-/// scheme of the catalogues that has one. A quadratic action has a symplectic M whatever its unknowns are, so
-/// that both laws are needed.
+/// The tangent map of a step: against differences of the step, against the symplectic form, and against what
+/// transposed solves make of it, for every scheme of the catalogues that has one. A quadratic action has a
+/// symplectic M whatever its unknowns are, so that both laws are needed.
 #include <QTest>
 
 #include <algorithm>
@@ -79,6 +79,7 @@ StepReport stepOf(Integrator& integrator, State& state, double h) {
 
 struct Measured {
     double difference = 0, defect = 0, size = 0;  ///< the first two relative to |M| and |M|^2
+    double transposed = 0;                        ///< M^T - its own, relative to |M|
     bool isClaimed = false;
 };
 
@@ -115,7 +116,7 @@ std::optional<Measured> measured(const Ground& on, const CatalogueScheme& c) {
         if (stepOf(*integrator, state, h).outcome != Outcome::converged) return {};
         if (isLanding && state.t != before.t + h) return {};
         const auto M = tangentMap(*integrator);
-        if (!M) return Measured{1e300, 1e300, 1, m.isClaimed};
+        if (!M) return Measured{1e300, 1e300, 1, 1e300, m.isClaimed};
         const auto fresh = c.make(on.system, on.step, on.start);
         const auto step = [&](State from) -> std::optional<State> {
             from.memory.clear();
@@ -126,6 +127,7 @@ std::optional<Measured> measured(const Ground& on, const CatalogueScheme& c) {
         };
         const double size = M->cwiseAbs().maxCoeff();
         m.size = std::max(m.size, size);
+        m.transposed = std::max(m.transposed, transposedDefect(*integrator, *M) / size);
         m.defect = std::max(m.defect, formDefect(form, before.x.data(), state.x.data(), *M) / (size * size));
         const bool isLinear = on.system.parts.find<Wave>();
         const auto D = differencedMap(on.system, step, before, n, isLinear ? 0.1 : on.delta);
@@ -150,7 +152,7 @@ private slots:
     void theMapIsThatOfTheStepAndKeepsTheForm() {
         QFETCH(int, index);
         const Ground& on = grounds_[static_cast<std::size_t>(index)];
-        double worstDifference = 0, worstDefect = 0, leastOfOthers = 1e300;
+        double worstDifference = 0, worstDefect = 0, worstTransposed = 0, leastOfOthers = 1e300;
         int schemes = 0, broken = 0;
         for (const CatalogueScheme& c : everythingOn(on.system, on.start, on.step)) {
             const auto m = measured(on, c);
@@ -161,20 +163,22 @@ private slots:
                 on.system.parts.find<Wave>() &&
                 (c.name.find(" roots") != std::string::npos || c.name.starts_with("space-time"));
             const double allowed = isByRoots ? 1e-12 : 1e-14;
-            const bool isRight = m->difference <= 1e-8 && (!m->isClaimed || m->defect <= allowed);
+            const bool isRight =
+                m->difference <= 1e-8 && (!m->isClaimed || m->defect <= allowed) && m->transposed <= 1e-13;
             if (!isRight) {
                 ++broken;
-                qWarning("%s: M - differences %.1e, defect %.1e, |M| %.1e", c.name.c_str(), m->difference,
-                         m->defect, m->size);
+                qWarning("%s: M - differences %.1e, defect %.1e, M^T - its own %.1e, |M| %.1e",
+                         c.name.c_str(), m->difference, m->defect, m->transposed, m->size);
             }
+            worstTransposed = std::max(worstTransposed, m->transposed);
             worstDifference = std::max(worstDifference, m->difference);
             (m->isClaimed ? worstDefect : leastOfOthers) =
                 m->isClaimed ? std::max(worstDefect, m->defect) : std::min(leastOfOthers, m->defect);
         }
         qInfo(
             "%d schemes: M - differences up to %.1e, defect of symplectic ones up to %.1e, of others from "
-            "%.1e",
-            schemes, worstDifference, worstDefect, leastOfOthers);
+            "%.1e, transposed %.1e",
+            schemes, worstDifference, worstDefect, leastOfOthers, worstTransposed);
         QVERIFY(schemes > 0);
         QCOMPARE(broken, 0);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What is measured along a run with the tangent maps of its steps (integrator/with_variations.hpp), against
-/// known motions and the numbers of others.
+/// What is measured along a run with the tangent maps of its steps
+/// (integrator/variation/with_variations.hpp), against known motions and the numbers of others.
 #include <Eigen/LU>
 #include <QTest>
 
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <span>
 
-#include "engine/integrator/with_exponents.hpp"
-#include "engine/integrator/with_variations.hpp"
+#include "engine/integrator/variation/with_exponents.hpp"
+#include "engine/integrator/variation/with_variations.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/tangent.hpp"
 #include "tests/tools/test.hpp"

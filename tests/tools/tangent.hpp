@@ -12,6 +12,7 @@
 
 #include "engine/family/lie/lie_groups.hpp"
 #include "engine/integrator/integrator.hpp"
+#include "engine/integrator/variation/transposed_step.hpp"
 #include "engine/model/symplectic_form.hpp"
 #include "tests/tools/jacobian.hpp"
 
@@ -88,6 +89,13 @@ inline std::optional<Eigen::MatrixXd> tangentMap(Integrator& integrator) {
     Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
     if (!integrator.applyTangent({M.data(), static_cast<std::size_t>(n * n)})) return {};
     return M;
+}
+
+/// The largest entry of M^T - (what the step makes of the unit vectors as covectors).
+inline double transposedDefect(Integrator& integrator, const Eigen::MatrixXd& M) {
+    Eigen::MatrixXd T = Eigen::MatrixXd::Identity(M.rows(), M.cols());
+    if (!applyTransposed(integrator, {T.data(), static_cast<std::size_t>(T.size())})) return 1e300;
+    return (T - M.transpose()).cwiseAbs().maxCoeff();
 }
 
 /// M of `step` from a state by differences with displacements delta * own.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/integrator/with_variations.hpp"
+#include "engine/integrator/variation/with_variations.hpp"
 #include "engine/observe/catalog.hpp"
 
 namespace extremal {
@@ -19,6 +19,7 @@ inline VariationPlan variationsFor(const std::vector<std::string>& observe) {
             plan.vector = plan.vector || entry->variations.vector;
             plan.frame = plan.frame || entry->variations.frame;
             plan.errors = plan.errors || entry->variations.errors;
+            plan.parameters = plan.parameters || entry->variations.parameters;
         }
     return plan;
 }

@@ -111,7 +111,7 @@ std::optional<ResolvedScheme> secondCompanionOf(const ResolvedScheme& scheme, co
         second.spec.label = "second companion of " + scheme.spec.label;
         return second;
     }
-    if (!scheme.isFixed()) return {};
+    if (!scheme.isFixed() && !scheme.isMonitored()) return {};
     const bool isHalved = first.spec.step.value < scheme.spec.step.value;
     second.spec.step.value /= isHalved ? 3 : 2;
     second.spec.label = "second companion of " + scheme.spec.label;
@@ -119,7 +119,7 @@ std::optional<ResolvedScheme> secondCompanionOf(const ResolvedScheme& scheme, co
 }
 
 double unresolvedTurn(const ResolvedScheme& scheme, const System& system, const State& initial) {
-    if (!system.hasCoordinates() || scheme.isAdaptive()) return 0;
+    if (!system.hasCoordinates() || scheme.isAdaptive() || scheme.isMonitored()) return 0;
     const double longest = system.fast.frequency > 0 ? 0.5 : 2;
     const double turned = highestFrequency(system, initial) * scheme.spec.step.value;
     return turned > longest ? turned : 0;

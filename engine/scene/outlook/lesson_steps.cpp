@@ -2,7 +2,10 @@
 #include "engine/scene/outlook/lesson_steps.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "engine/core/problem.hpp"
+#include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/scene/read/json.hpp"
 #include "engine/scene/read/pointer.hpp"
@@ -126,12 +129,26 @@ std::vector<LessonStep> lessonSteps(const Value& document, const Scene& scene) {
     return readLessonSteps(reader, document, scene);
 }
 
+namespace {
+
+/// A literal, or an expression in pi alone ("pi/80"); NaN: neither.
+double numberFrom(const Value& value) {
+    try {
+        return numberIn(value, "", {});
+    } catch (const InvalidScene&) {
+        return std::nan("");
+    }
+}
+
+}  // namespace
+
 bool isReached(const LessonStep& step, const Value& document) {
     return std::all_of(step.until.begin(), step.until.end(), [&](const LessonStep::Goal& goal) {
         const Value* const value = placeIn(document, goal.pointer);
         if (!value) return false;
         if (goal.equal) return *value == *goal.equal;
-        return value->isNumber() && value->asNumber() > goal.above && value->asNumber() < goal.below;
+        const double number = numberFrom(*value);
+        return number > goal.above && number < goal.below;
     });
 }
 

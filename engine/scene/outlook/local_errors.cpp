@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/integrator/with_local_errors.hpp"
+#include "engine/integrator/variation/with_local_errors.hpp"
 #include "engine/scene/outlook/companion.hpp"
 
 namespace extremal {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The better steps that local errors are measured by (integrator/with_local_errors.hpp): of a discretization
-/// those of its companion with one degree more, of others two halves of the step.
+/// The better steps that local errors are measured by (integrator/variation/with_local_errors.hpp): of a
+/// discretization those of its companion with one degree more, of others two halves of the step.
 #pragma once
 
 #include <memory>

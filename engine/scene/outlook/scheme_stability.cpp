@@ -28,18 +28,17 @@ System oscillator() {
 
 /// First unstable z of two steps of the scheme itself; 0: it does not run on the oscillator (rigid bodies).
 double measuredLimit(const ResolvedScheme& scheme) {
-    constexpr double resolution = 0.02;
+    constexpr StabilityScan scan{.fine = 0.02, .coarse = 0.1};
     const System system = oscillator();
     if (!scheme.fits(system)) return 0;
-    return firstInstability(
-        [&](double z) {
-            const auto step = scheme.make(system, z, State{0, 0, {1, 0}});
-            State one{0, 0, {1, 0}}, other{0, 0, {0, 1}};
-            const bool isSolved = advance(*step, one).outcome == Outcome::converged &&
-                                  advance(*step, other).outcome == Outcome::converged;
-            return isSolved ? (one.x[0] + other.x[1]) / 2 : std::numeric_limits<double>::quiet_NaN();
-        },
-        resolution);
+    const auto isStable = [&](double z) {
+        const auto step = scheme.make(system, z, State{0, 0, {1, 0}});
+        State one{0, 0, {1, 0}}, other{0, 0, {0, 1}};
+        const bool isSolved = advance(*step, one).outcome == Outcome::converged &&
+                              advance(*step, other).outcome == Outcome::converged;
+        return isSolved && hasBoundedPowers((one.x[0] + other.x[1]) / 2, z);
+    };
+    return firstInstability(isStable, scan).limit();
 }
 
 /// The step on the oscillator by its coefficients, where they are known.
@@ -77,6 +76,9 @@ double statedLimit(const ResolvedScheme& scheme) {
 }
 
 Facts computed(const ResolvedScheme& scheme) {
+    // On linear equations the steps are those of Gauss collocation.
+    if (scheme.isTested())
+        return scheme.isComposed() || !isEnergyAlone(scheme.spec.keep) ? nullptr : upTo(unbounded);
     if (scheme.family && !scheme.isComposed() && hasTable(scheme.discretization))
         return tableStability(scheme.discretization);
     if (auto step = oscillatorStep(scheme))
@@ -92,7 +94,7 @@ Facts computed(const ResolvedScheme& scheme) {
 }  // namespace
 
 Facts stabilityOf(const ResolvedScheme& scheme) {
-    if (scheme.isAdaptive()) return nullptr;
+    if (scheme.isAdaptive() || scheme.isMonitored()) return nullptr;
     static MemoCache<std::string, Facts> known(256);
     SchemeSpec bare = scheme.spec;  // what the limit depends on
     bare.label.clear();

@@ -14,7 +14,8 @@
 
 namespace extremal {
 
-/// Null where one number h w does not decide: steps under an error control, spaces that change with the step,
+/// Null where one number h w does not decide: steps under an error control or
+/// after a monitor, spaces that change with the step,
 /// rules for terms. Remembered, so that asking again is cheap; any thread may ask.
 std::shared_ptr<const LinearStabilityFacts> stabilityOf(const ResolvedScheme& scheme);
 

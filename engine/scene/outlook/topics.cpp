@@ -21,6 +21,7 @@ constexpr std::pair<const char*, const char*> findingTopics[] = {
     {"field-step", "fields#the-schemes"},
     {"local-errors", "structure#where-the-error-is-made"},
     {"mechanisms", "mechanisms#keys"},
+    {"monitors", "phase-space#steps-that-follow-a-monitor"},
     {"momentum", "structure#which-schemes-keep-a-momentum"},
     {"order-conditions", "own-tables#what-is-found-from-the-coefficients"},
     {"refused", "schemes#discretizations-that-are-refused-or-lose-order"},
@@ -31,6 +32,7 @@ constexpr std::pair<const char*, const char*> findingTopics[] = {
     {"step-density", "moving-times#what-the-steps-are"},
     {"strangers", "security"},
     {"tangent-map", "structure#the-tangent-map-of-a-step"},
+    {"sensitivity", "structure#derivatives-by-numbers"},
     {"three-levels", "waves#three-levels"},
     {"way-back", "structure#there-and-back"},
 };
@@ -42,6 +44,7 @@ constexpr std::pair<Outcome, const char*> outcomeTopics[] = {
     {Outcome::notFinite, "schemes#when-a-run-ends-early"},
     {Outcome::stepBudget, "schemes#when-a-run-ends-early"},
     {Outcome::lost, "studies#runs-that-are-lost"},
+    {Outcome::underResolved, "waves#collapse"},
     {Outcome::refused, "schemes#when-a-run-ends-early"},
     {Outcome::stopped, "schemes#when-a-run-ends-early"},
 };
@@ -53,6 +56,7 @@ constexpr std::pair<std::string_view, const char*> partTopics[] = {
     {"/schemes/*/baseline", "baselines"},
     {"/schemes/*/scheme", "schemes"},
     {"/schemes/*/composition", "schemes#compositions"},
+    {"/schemes/*/monitor", "phase-space#steps-that-follow-a-monitor"},
     {"/schemes", "scenes#schemes"},
     {"/model/constraints", "mechanisms#keys"},
     {"/model/forces", "mechanisms#keys"},

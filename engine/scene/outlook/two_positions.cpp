@@ -14,10 +14,10 @@
 #include "engine/family/family.hpp"
 #include "engine/family/parts/starts.hpp"
 #include "engine/family/table_of.hpp"
+#include "engine/integrator/variation/motion_map.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/solve/discrete_lagrangian.hpp"
-#include "engine/solve/newton.hpp"
 
 namespace extremal {
 namespace {
@@ -68,35 +68,12 @@ Eigen::MatrixXd sampled(const Eigen::MatrixXd& path, int n) {
 /// p_0 for which the scheme's own n steps end at q_1, from a guess.
 Outcome shoot(const Scene& scene, const System& system, const ResolvedScheme& scheme, double step, int n,
               Eigen::VectorXd& p0) {
-    const int d = system.dimension();
-    const Eigen::VectorXd q1 = valuesOf(scene.initial.pOrV);
     const State exact = stateOf(scene, p0);
-    auto reach = [&](const Eigen::VectorXd& p, Eigen::VectorXd& q) {
-        const auto integrator = scheme.make(system, step, exact);
-        State state = stateOf(scene, p);
-        for (int k = 0; k < n; ++k)
-            if (advance(*integrator, state).outcome != Outcome::converged) return false;
-        q = Eigen::Map<const Eigen::VectorXd>(state.x.data(), d);
-        return q.allFinite();
-    };
-    const double size = p0.cwiseAbs().maxCoeff();
-    return solveNewton<double>(p0, [&](const Eigen::VectorXd& p, Eigen::VectorXd& F, Eigen::MatrixXd* J) {
-        if (!reach(p, F)) return false;
-        F -= q1;
-        if (!J) return true;
-        J->resize(d, d);
-        const double delta = 1e-6 * std::max(size, 1e-3);
-        Eigen::VectorXd low, high, moved = p;
-        for (int i = 0; i < d; ++i) {
-            moved(i) = p(i) - delta;
-            if (!reach(moved, low)) return false;
-            moved(i) = p(i) + delta;
-            if (!reach(moved, high)) return false;
-            moved(i) = p(i);
-            J->col(i) = (high - low) / (2 * delta);
-        }
-        return true;
-    });
+    MotionMap map(scheme.make(system, step, exact), scene.start.value, n);
+    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(exact.x.data(), 2 * system.dimension());
+    const Outcome outcome = arrive(map, x, n * step, valuesOf(scene.initial.pOrV));
+    p0 = x.tail(system.dimension());
+    return outcome;
 }
 
 }  // namespace

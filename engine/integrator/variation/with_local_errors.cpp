@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/integrator/with_local_errors.hpp"
+#include "engine/integrator/variation/with_local_errors.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "engine/integrator/accompanied.hpp"
+#include "engine/integrator/variation/accompanied.hpp"
 
 namespace extremal {
 namespace {

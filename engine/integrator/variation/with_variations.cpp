@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/integrator/with_variations.hpp"
-
-#include <Eigen/LU>
+#include "engine/integrator/variation/with_variations.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "engine/integrator/accompanied.hpp"
+#include "engine/core/algebra/lu.hpp"
+#include "engine/integrator/variation/accompanied.hpp"
+#include "engine/model/first_order/one_form.hpp"
+#include "engine/model/first_order/poisson.hpp"
 #include "engine/model/symplectic_form.hpp"
 
 namespace extremal {
@@ -51,19 +53,26 @@ struct Size {
 
     /// What is carried: the numbers of `Number`, the forms at the start, Q column after column, w.
     std::size_t carried() const { return numbers + columns * columns + (columns + vectors) * n; }
-    enum Number : std::size_t { startTime, power, sumOfLogs, weightedSum, integralOfMegno, numbers };
+    enum Number : std::size_t { startTime, power, sumOfLogs, weightedSum, integralOfMegno, area, numbers };
 };
 
-/// In the order of `Said`, the traces between the volume and the exponent.
+/// In the order of `Said`, the traces between the volume and the exponent; of a one-form the area behind
+/// them.
 std::vector<std::string> namesOf(const System& system, const Size& size) {
     std::vector<std::string> names;
     if (size.columns > 0) {
         names = {"symplecticity", "symplecticity_accumulated", "volume", "floquet_trace"};
         if (size.n == 2 * system.coordinates.size() && size.free == size.n)
             for (const Coordinate& c : system.coordinates) names.push_back("floquet_trace." + c.name);
+        if (system.parts.find<OneForm>()) names.push_back("area");
     }
     if (size.vectors > 0) names.insert(names.end(), {"lyapunov", "megno"});
     return names;
+}
+
+std::optional<PoissonEquations> bracketOf(const System& system) {
+    const PoissonStructure* const found = system.parts.find<PoissonStructure>();
+    return found ? std::optional<PoissonEquations>(*found) : std::nullopt;
 }
 
 class WithVariations final : public Accompanied {
@@ -73,8 +82,10 @@ public:
         : Accompanied(std::move(scheme), size.carried(), namesOf(system, size)),
           form_(system),
           isUnitary_(system.isUnitary),
+          hasArea_(size.columns > 0 && system.parts.find<OneForm>()),
           size_(size),
-          basis_(std::move(basis)) {
+          basis_(std::move(basis)),
+          bracket_(bracketOf(system)) {
         const auto n = static_cast<Index>(size.n);
         const std::size_t moved = isMapKnown() ? size.columns : size.columns + size.vectors;
         M_ = Matrix::Zero(n, static_cast<Index>(moved));
@@ -96,9 +107,8 @@ private:
     }
     /// Whether M is computed as a matrix of all variations.
     bool isMapKnown() const { return size_.isWhole && size_.columns > 0 && !basis_; }
-    std::span<double> tracesSaid() {
-        return std::span(values_).subspan(traces, values_.size() - traces - 2 * size_.vectors);
-    }
+    std::size_t areaPlace() const { return values_.size() - 2 * size_.vectors - (hasArea_ ? 1 : 0); }
+    std::span<double> tracesSaid() { return std::span(values_).subspan(traces, areaPlace() - traces); }
 
     void startCarrying(const State& state, std::span<double> carried) override {
         const Carried all = parts(carried);
@@ -131,6 +141,7 @@ private:
         if (columns > 0) {
             if (isMapKnown()) {
                 measureStep(before.x.data(), after.x.data());
+                if (hasArea_) values_[areaPlace()] = all.number[Size::area] += growthOfArea();
                 product_.noalias() = M_.lazyProduct(Q);
                 Q = product_;
             } else if (size_.isWhole) {
@@ -221,16 +232,30 @@ private:
         product_.setIdentity();
         before_.assign(size_.columns * size_.columns, 0);
         forms(x, product_.data(), before_.data());
-        values_[step] = defect(y, M_.data(), before_.data(), 1);
+        values_[step] = bracket_ ? bracketDefect(x, y) : defect(y, M_.data(), before_.data(), 1);
         if (grid() == TimeGrid::free) values_[step] /= std::pow(M_.cwiseAbs().maxCoeff(), 2);
         lu_.compute(M_);
         values_[volume] = lu_.determinant() - 1;
+    }
+    /// ln det M + ln det Om(y) / 2 - ln det Om(x) / 2, of what measureStep() has left: the determinant of
+    /// M^T Om(y) M over that of Om(x).
+    double growthOfArea() {
+        const auto n = static_cast<Index>(size_.n);
+        const double after = skewDeterminant(now_, n), before = skewDeterminant(before_, n);
+        return std::log(after / before) / 2;
+    }
+    /// The largest entry of M J(x) M^T - J(y): a bracket moves with its covectors.
+    double bracketDefect(const double* x, const double* y) {
+        product_.noalias() = M_ * bracket_->structure(x);
+        moved_.noalias() = product_ * M_.transpose();
+        return (moved_ - bracket_->structure(y)).cwiseAbs().maxCoeff();
     }
     void measureProduct(const double* y, const Carried& all, Eigen::Map<Matrix>& Q) {
         constexpr int longest = 200;
         double& power = all.number[Size::power];
         const double size = size_.isWhole ? Q.cwiseAbs().maxCoeff() : Q.colwise().norm().maxCoeff();
-        values_[accumulated] = defect(y, all.Q, all.form, std::exp2(-2 * power)) / (size * size);
+        if (!bracket_)
+            values_[accumulated] = defect(y, all.Q, all.form, std::exp2(-2 * power)) / (size * size);
         if (isMapKnown()) {
             const double unit = std::exp2(power);
             const std::span<double> said = tracesSaid();
@@ -257,10 +282,11 @@ private:
     }
 
     SymplecticForm form_;
-    bool isUnitary_;
+    bool isUnitary_, hasArea_;
     Size size_;
     TangentBasis basis_;
-    Matrix M_, product_;
+    std::optional<PoissonEquations> bracket_;  ///< its buffers
+    Matrix M_, product_, moved_;
     Eigen::PartialPivLU<Matrix> lu_;
     std::vector<double> before_, now_;
 };

@@ -35,11 +35,12 @@ namespace extremal {
 
 /// Which of them are wanted.
 struct VariationPlan {
-    bool map = false;     ///< those of M and P
-    bool vector = false;  ///< lyapunov and megno
-    bool errors = false;  ///< those of integrator/with_local_errors.hpp
-    bool frame = false;   ///< all exponents: integrator/with_exponents.hpp
-    bool isEmpty() const { return !map && !vector && !errors && !frame; }
+    bool map = false;         ///< those of M and P
+    bool vector = false;      ///< lyapunov and megno
+    bool errors = false;      ///< those of integrator/variation/with_local_errors.hpp
+    bool frame = false;       ///< all exponents: integrator/variation/with_exponents.hpp
+    bool parameters = false;  ///< derivatives by numbers: integrator/variation/with_sensitivities.hpp
+    bool isEmpty() const { return !map && !vector && !errors && !frame && !parameters; }
 };
 
 /// The same integrator where nothing is wanted, or it has no tangent map. `free`: how many variations

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/integrator/accompanied.hpp"
+#include "engine/integrator/variation/accompanied.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/integrator/with_exponents.hpp"
+#include "engine/integrator/variation/with_exponents.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/integrator/accompanied.hpp"
+#include "engine/integrator/variation/accompanied.hpp"
 
 namespace extremal {
 namespace {
