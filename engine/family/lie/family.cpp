@@ -8,11 +8,14 @@
 #include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/lie/lie.hpp"
+#include "engine/family/parts/conditions.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/family/parts/solver_methods.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/table_properties.hpp"
+#include "engine/model/group/lie_group.hpp"
+#include "engine/model/group/spheres.hpp"
 
 namespace extremal::family {
 namespace {
@@ -28,15 +31,15 @@ SpaceEntry liePolynomial() {
     e.item = {
         "lie-polynomial",
         "Lie polynomial",
-        "Polynomials in the algebra of SO(3) or SE(3), carried to the group by exp in the chart at the "
-        "start of each step.",
+        "Polynomials in the algebra of a Lie group, carried to the group by exp in the chart at the start "
+        "of each step.",
         {integerField("degree", "s", 1, 8, nullptr, "Degree of the polynomials in the algebra on one step."),
          flagField("symmetric", false,
                    "Half a step of the adjoint scheme first: self-adjoint at every degree."),
          flagField("reduced", true,
                    "Free bodies: leave the attitude out of the equations (discrete Euler-Poincaré).")},
         {},
-        "a rigid body"};
+        "a rigid body, a Lie group or points on spheres"};
     return e;
 }
 
@@ -66,6 +69,13 @@ Properties describeLie(const Discretization& discretization) {
     return p;
 }
 
+/// A left-invariant Lagrangian that is typed says itself that g is not in the equations.
+std::string mismatchOfReduction(const Discretization& d, const System& system) {
+    if (d.space.flag("reduced") || system.parts.find<Body>()) return {};
+    return "g is in the equations of a typed Lagrangian where it occurs in its formula, and nowhere else: "
+           "leave \"reduced\" out";
+}
+
 /// Steps of a body that rotate it so far that the attitude may lose a thousandth of what it rotates. Measured
 /// over 60 rad on free bodies and a top with Gauss(s): 1e-3 is reached between 1.25 and 1.5 at degree 2, 2.25
 /// and 2.5 at 3, 3 and 3.5 at 4. Newton's method goes on finding solutions up to about 4. A symmetric scheme
@@ -74,6 +84,7 @@ void checkRotation(const SchemeCase& scheme, Findings& findings) {
     constexpr std::array<double, 3> farthest = {1.25, 2.25, 3};  // of degrees 2, 3, 4
     const Settings& space = scheme.discretization.space;
     const int degree = space.integer("degree");
+    if (!scheme.system.parts.find<Body>()) return;
     if (scheme.isComposed || degree < 2 || degree > 4) return;
     const std::vector<double>& x = scheme.initial.x;
     double rate = 0;
@@ -120,10 +131,12 @@ WrittenAction written(const Discretization&) {
 
 Family lie() {
     Family f;
-    f.item = {"lie", "Lie group", "Curves on SO(3) and SE(3).", {}, {}, "a rigid body"};
+    f.item = {
+        "lie", "Lie group", "Curves on Lie groups: SO(3), SE(3), or any given by a basis; and on spheres.",
+        {},    {},          "a rigid body, a Lie group or points on spheres"};
     f.source = "Leok 2004, sec. 3 and 4";
     f.spaces = {liePolynomial()};
-    f.takes = Takes::only<Body>();
+    f.takes = Takes::only<Body, LieGroup, Spheres>();
     f.completeRule = [](const Settings& space, const Settings& quadrature) {
         return completePlainRule(quadrature, space.integer("degree"), 1);
     };
@@ -135,6 +148,7 @@ Family lie() {
     f.make = makeLieIntegrator;
     f.parts.set(SolverMethods{{"newton"}});
     f.parts.set(TrustedScheme{trusted});
+    f.parts.set(SchemeCondition{mismatchOfReduction});
     return f;
 }
 

@@ -4,23 +4,28 @@
 #include <utility>
 
 #include "engine/core/memo_cache.hpp"
+#include "engine/family/lie/data_lagrangian.hpp"
 #include "engine/family/lie/lie_step_build.hpp"
+#include "engine/family/lie/sphere_group.hpp"
 #include "engine/integrator/condensed.hpp"
+#include "engine/model/group/lie_group.hpp"
 #include "engine/space/polynomial.hpp"
 
 namespace extremal {
 
 template class LieStep<double, RotationGroup<double>>;
 template class LieStep<double, MotionGroup<double>>;
+template class LieStep<double, DataGroup>;
+template class LieStep<double, SphereGroup>;
 
 namespace {
 
 template <class G>
 class Lie final : public Integrator {
 public:
-    Lie(const BodyMechanics<double>& body, const Table<double>& table, double step, bool isReduced,
+    Lie(const typename G::Mechanics& mechanics, const Table<double>& table, double step, bool isReduced,
         bool isSymmetrised, const SolverPolicy& policy)
-        : body_(body),
+        : mechanics_(mechanics),
           table_(table),
           policy_(policy),
           h_(step),
@@ -36,24 +41,37 @@ public:
         step_ = own();
     }
 
+    void begin(State&) override {
+        adjoint_.forget();
+        step_.forget();
+    }
     StepReport advance(State& state, double until) override {
         StepReport report;
         report.step = h_;
-        Pose<double> pose = G::read(state.x.data());
+        const G& group = step_.group();
+        typename G::Pose pose = group.read(state.x.data());
         if (isSymmetrised_) report.outcome = adjoint_.advance(pose, report, stop());
         if (report.outcome == Outcome::converged) report.outcome = step_.advance(pose, report, stop());
         if (report.outcome != Outcome::converged) return report;
-        G::write(pose, state.x.data());
+        group.settle(pose, state.node);
+        group.write(pose, state.x.data());
         state.t = until;
         ++state.node;
         return report;
     }
     void denseOutput(double tau, std::span<double> x) const override {
-        if (!isSymmetrised_) return G::write(step_.denseOutput(tau), x.data());
-        G::write(tau < 0.5 ? adjoint_.denseOutput(2 * tau) : step_.denseOutput(2 * tau - 1), x.data());
+        const G& group = step_.group();
+        if (!isSymmetrised_) return group.write(step_.denseOutput(tau), x.data());
+        group.write(tau < 0.5 ? adjoint_.denseOutput(2 * tau) : step_.denseOutput(2 * tau - 1), x.data());
     }
 
-    std::size_t tangentSize() const override { return 2 * G::n; }
+    std::size_t tangentSize() const override {
+        if constexpr (requires { step_.group().isotropy(); }) return 0;
+        return 2 * static_cast<std::size_t>(step_.group().dimension());
+    }
+    std::string tangentProblem() const override {
+        return "how a frame turns about its point on a sphere is not a part of the state";
+    }
     bool applyTangent(std::span<double> W) override {
         const auto columns = static_cast<int>(W.size() / tangentSize());
         return (!isSymmetrised_ || adjoint_.applyTangent(W.data(), columns)) &&
@@ -67,12 +85,12 @@ public:
     }
 
 private:
-    LieStep<double, G> adjoint() const { return {body_, table_, h_ / 2, isReduced_, true, policy_}; }
+    LieStep<double, G> adjoint() const { return {mechanics_, table_, h_ / 2, isReduced_, true, policy_}; }
     LieStep<double, G> own() const {
-        return {body_, table_, isSymmetrised_ ? h_ / 2 : h_, isReduced_, false, policy_};
+        return {mechanics_, table_, isSymmetrised_ ? h_ / 2 : h_, isReduced_, false, policy_};
     }
 
-    BodyMechanics<double> body_;
+    typename G::Mechanics mechanics_;
     Table<double> table_;
     SolverPolicy policy_;
     double h_;
@@ -96,6 +114,12 @@ std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discre
     const Table<double> table = lieTable(discretization.space, discretization.quadrature);
     const bool isReduced = discretization.space.flag("reduced"),
                isSymmetrised = discretization.space.flag("symmetric");
+    if (const LieGroup* const group = system.parts.find<LieGroup>())
+        return std::make_unique<Lie<DataGroup>>(*group->mechanics, table, step, isReduced, isSymmetrised,
+                                                policy);
+    if (const Spheres* const spheres = system.parts.find<Spheres>())
+        return std::make_unique<Lie<SphereGroup>>(*spheres->mechanics, table, step, isReduced, isSymmetrised,
+                                                  policy);
     const BodyMechanics<double>& body = system.body();
     if (body.dimension == 3)
         return std::make_unique<Lie<RotationGroup<double>>>(body, table, step, isReduced, isSymmetrised,

@@ -13,6 +13,7 @@
 
 #include "engine/group/se3.hpp"
 #include "engine/group/so3.hpp"
+#include "engine/model/body/body.hpp"
 
 namespace extremal {
 
@@ -23,37 +24,58 @@ struct Pose {
     so3::Vector<T> position = so3::Vector<T>::Zero(), linear = so3::Vector<T>::Zero();
 };
 
+/// What the groups of one body share.
+template <class T, int N>
+struct BodyGroup {
+    static constexpr int n = N;
+    using Vector = Eigen::Matrix<T, N, 1>;
+    using Mechanics = BodyMechanics<T>;
+    using Pose = extremal::Pose<T>;
+
+    static constexpr int dimension() { return n; }
+    /// Beyond, the chart folds over itself at 2 pi, and the solution is hardly the wanted one.
+    static bool isBeyond(const Vector& xi) { return !(xi.template head<3>().squaredNorm() <= T(25)); }
+    /// Quaternions are of length 1 after every step.
+    static void settle(Pose&, long long) {}
+};
+
 /// SO(3).
 template <class T>
-struct RotationGroup {
-    static constexpr int n = 3;
+struct RotationGroup : BodyGroup<T, 3> {
     using Vector = so3::Vector<T>;
     using Matrix = so3::Matrix<T>;
     using Element = so3::Matrix<T>;
     template <int K>
     using Chart = so3::Exponential<T, K>;
+    using Pose = extremal::Pose<T>;
+
+    explicit RotationGroup(const BodyMechanics<T>&) {}
+    template <int K>
+    static Chart<K> chart(const Vector& xi) {
+        return Chart<K>(xi);
+    }
 
     /// From and to the state of a run (model/body/body.hpp).
-    static Pose<T> read(const T* x) {
-        Pose<T> p;
+    static Pose read(const T* x) {
+        Pose p;
         p.attitude << x[0], x[1], x[2], x[3];
         p.momentum << x[7], x[8], x[9];
         return p;
     }
-    static void write(const Pose<T>& p, T* x) {
+    static void write(const Pose& p, T* x) {
         const Vector body = so3::matrix(p.attitude).transpose() * p.momentum;
         for (int i = 0; i < 4; ++i) x[i] = p.attitude(i);
         for (int i = 0; i < 3; ++i) x[4 + i] = body(i);
         for (int i = 0; i < 3; ++i) x[7 + i] = p.momentum(i);
     }
-    static Element element(const Pose<T>& p) { return so3::matrix(p.attitude); }
+    static Element element(const Pose& p) { return so3::matrix(p.attitude); }
     static const T* rotation(const Element& g) { return g.data(); }
     static const T* position(const Element&) { return nullptr; }
     template <int K>
     static Element times(const Element& g, const Chart<K>& at) {
         return g * at.rotation();
     }
-    static Vector bodyMomentum(const Element& g, const Pose<T>& p) { return g.transpose() * p.momentum; }
+    static Vector bodyMomentum(const Element& g, const Pose& p) { return g.transpose() * p.momentum; }
     static Matrix precessionMatrix(const Vector& m) { return so3::precessionMatrix(m); }
     static Vector precession(const Vector& m, const Vector& u) { return so3::precession(m, u); }
 
@@ -64,55 +86,61 @@ struct RotationGroup {
     static Vector momentumInBody(const Element& g, const Vector& m) { return g.transpose() * m; }
 
     /// The chart's coordinates of a place seen from the base point, whose rotation vector is omega.
-    static Vector coordinates(const Pose<T>&, const Pose<T>&, const Vector& omega) { return omega; }
+    static Vector coordinates(const Pose&, const Pose&, const Vector& omega) { return omega; }
     /// xi after a Newton correction.
     static Vector corrected(const Vector& xi, const Vector& change) { return xi + change; }
 
     /// The place p exp(xi), with the momenta of p.
-    static Pose<T> place(const Pose<T>& p, const Element&, const Vector& xi) {
-        Pose<T> r = p;
+    static Pose place(const Pose& p, const Element&, const Vector& xi) {
+        Pose r = p;
         r.attitude = so3::normalised(so3::product(p.attitude, so3::quaternionExp(xi)));
         return r;
     }
     /// Gives the end point, placed already, its momentum; or the base point.
-    static void carry(const Pose<T>& base, const Element& g, const Vector& W, Pose<T>& end) {
+    static void carry(const Pose& base, const Element& g, const Vector& W, Pose& end) {
         end.momentum = base.momentum - g * W;
     }
-    static void fetch(Pose<T>& base, const Element& g, const Vector& W, const Pose<T>& end) {
+    static void fetch(Pose& base, const Element& g, const Vector& W, const Pose& end) {
         base.momentum = end.momentum + g * W;
     }
 };
 
 /// SE(3).
 template <class T>
-struct MotionGroup {
-    static constexpr int n = 6;
+struct MotionGroup : BodyGroup<T, 6> {
     using Three = so3::Vector<T>;
     using Vector = se3::Vector<T>;
     using Matrix = se3::Matrix<T>;
     using Element = se3::Motion<T>;
     template <int K>
     using Chart = se3::Exponential<T, K>;
+    using Pose = extremal::Pose<T>;
 
-    static Pose<T> read(const T* x) {
-        Pose<T> p = RotationGroup<T>::read(x);
+    explicit MotionGroup(const BodyMechanics<T>&) {}
+    template <int K>
+    static Chart<K> chart(const Vector& xi) {
+        return Chart<K>(xi);
+    }
+
+    static Pose read(const T* x) {
+        Pose p = RotationGroup<T>::read(x);
         p.position << x[10], x[11], x[12];
         p.linear << x[13], x[14], x[15];
         return p;
     }
-    static void write(const Pose<T>& p, T* x) {
+    static void write(const Pose& p, T* x) {
         RotationGroup<T>::write(p, x);
         for (int i = 0; i < 3; ++i) x[10 + i] = p.position(i);
         for (int i = 0; i < 3; ++i) x[13 + i] = p.linear(i);
     }
-    static Element element(const Pose<T>& p) { return {so3::matrix(p.attitude), p.position}; }
+    static Element element(const Pose& p) { return {so3::matrix(p.attitude), p.position}; }
     static const T* rotation(const Element& g) { return g.rotation.data(); }
     static const T* position(const Element& g) { return g.position.data(); }
     template <int K>
     static Element times(const Element& g, const Chart<K>& at) {
         return se3::product(g, at.motion());
     }
-    static Vector bodyMomentum(const Element& g, const Pose<T>& p) {
+    static Vector bodyMomentum(const Element& g, const Pose& p) {
         Vector m;
         m << g.rotation.transpose() * p.momentum, g.rotation.transpose() * p.linear;
         return m;
@@ -140,7 +168,7 @@ struct MotionGroup {
     }
 
     /// The chart's coordinates of a place seen from the base point, whose rotation vector is omega.
-    static Vector coordinates(const Pose<T>& base, const Pose<T>& place, const Three& omega) {
+    static Vector coordinates(const Pose& base, const Pose& place, const Three& omega) {
         Vector xi;
         const Three way = so3::matrix(base.attitude).transpose() * (place.position - base.position);
         xi << omega, fromDisplacement(omega, way);
@@ -160,17 +188,17 @@ struct MotionGroup {
         return r;
     }
 
-    static Pose<T> place(const Pose<T>& p, const Element& g, const Vector& xi) {
-        Pose<T> r = RotationGroup<T>::place(p, g.rotation, xi.template head<3>());
+    static Pose place(const Pose& p, const Element& g, const Vector& xi) {
+        Pose r = RotationGroup<T>::place(p, g.rotation, xi.template head<3>());
         r.position = times(g, Chart<0>(xi)).position;
         return r;
     }
-    static void carry(const Pose<T>& base, const Element& g, const Vector& W, Pose<T>& end) {
+    static void carry(const Pose& base, const Element& g, const Vector& W, Pose& end) {
         end.linear = base.linear - g.rotation * W.template tail<3>();
         end.momentum = base.momentum - g.rotation * W.template head<3>() -
                        so3::cross(Three(end.position - base.position), end.linear);
     }
-    static void fetch(Pose<T>& base, const Element& g, const Vector& W, const Pose<T>& end) {
+    static void fetch(Pose& base, const Element& g, const Vector& W, const Pose& end) {
         base.linear = end.linear + g.rotation * W.template tail<3>();
         base.momentum = end.momentum + g.rotation * W.template head<3>() +
                         so3::cross(Three(end.position - base.position), end.linear);

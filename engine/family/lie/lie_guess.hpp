@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "engine/family/lie/lie_groups.hpp"
 #include "engine/model/body/body.hpp"
@@ -80,5 +81,56 @@ so3::Vector<T> turnBetween(const so3::Quaternion<T>& from, const so3::Quaternion
     }
     return best;
 }
+
+/// The guess of a step on G: a body's. Of groups given as data: data_lagrangian.hpp.
+template <class T, class G>
+class StepGuess {
+public:
+    using Vector = typename G::Vector;
+
+    StepGuess(const G& group, const BodyMechanics<T>& body, int points)
+        : group_(group), body_(body), poses_(static_cast<std::size_t>(points + 1)) {}
+
+    /// Fills the columns of `points` with the coordinates, seen from the base point of the chart, of the
+    /// curve at the times (in steps from the known end on, without 0); mu: momentum in the body at that end.
+    template <class Columns>
+    void curve(const Pose<T>& known, const Vector& mu, const std::vector<T>& times, const T& step,
+               bool isAdjoint, Columns& points) {
+        const auto last = times.size();
+        poses_[0] = known;
+        poses_[0].momentum = mu.template head<3>();
+        for (std::size_t k = 0; k < last; ++k)
+            poses_[k + 1] =
+                guessedAfter(body_, poses_[k], T((times[k] - (k > 0 ? times[k - 1] : T(0))) * step));
+        // The points are symmetric in time: the adjoint step sees the same ones from the end.
+        const Pose<T>& base = poses_[isAdjoint ? last : 0];
+        const Vector w = rate(body_, {}, mu);
+        for (std::size_t k = 0; k < last; ++k) {
+            const Pose<T>& place = poses_[isAdjoint ? last - k - 1 : k + 1];
+            points.col(static_cast<Eigen::Index>(k)) =
+                coordinates(group_, base, place, Vector(((isAdjoint ? T(-step) : step) * times[k]) * w));
+        }
+    }
+    /// False where the potential has no force at the start: in a singularity.
+    bool isRateFinite() const { return extremal::isRateFinite(body_, poses_[0]); }
+
+    /// The angular velocity of a momentum in the body, as coordinates per unit of time.
+    static Vector rate(const BodyMechanics<T>& body, const typename G::Element&, const Vector& mu) {
+        Vector w = mu;
+        for (int i = 0; i < G::n; ++i)
+            w(i) = i < 3 ? mu(i) / body.inertia[static_cast<std::size_t>(i)] : T(0);
+        return w;
+    }
+    /// xi of a place seen from the base point: of those that differ by full turns the one next to `near`.
+    static Vector coordinates(const G&, const Pose<T>& base, const Pose<T>& place, const Vector& near) {
+        return G::coordinates(base, place,
+                              turnBetween<T>(base.attitude, place.attitude, near.template head<3>()));
+    }
+
+private:
+    G group_;
+    BodyMechanics<T> body_;
+    std::vector<Pose<T>> poses_;
+};
 
 }  // namespace extremal

@@ -21,7 +21,10 @@
 /// inverted); the curve ends at g_1 (printed g_0^{-1} g_1).
 ///
 /// Newton with the Jacobian of the predicted curve, kept while it contracts well, to round-off.
-/// T: scalar; G: RotationGroup<T> or MotionGroup<T> (lie_groups.hpp). All buffers are allocated in the
+/// T: scalar; G, a policy: RotationGroup<T> or MotionGroup<T> (lie_groups.hpp), or DataGroup
+/// (data_group.hpp), whose dimension is known when it runs and whose momenta may depend on g, or SphereGroup
+/// (sphere_group.hpp). It brings its
+/// Lagrangian (ChartLagrangian<T, G>) and its guess (StepGuess<T, G>). All buffers are allocated in the
 /// constructor.
 #pragma once
 
@@ -37,7 +40,7 @@
 #include "engine/core/text/archive.hpp"
 #include "engine/family/lie/chart_lagrangian.hpp"
 #include "engine/family/lie/lie_groups.hpp"
-#include "engine/model/body/body.hpp"
+#include "engine/family/lie/lie_guess.hpp"
 #include "engine/solve/newton_policy.hpp"
 #include "engine/solve/small_lu.hpp"
 
@@ -46,48 +49,62 @@ namespace extremal {
 template <class T, class G>
 class LieStep {
 public:
-    static constexpr int n = G::n;
+    static constexpr int n = G::n;  ///< Eigen::Dynamic: known when it runs
+    using Mechanics = typename G::Mechanics;
+    using Pose = typename G::Pose;
     using Vector = typename G::Vector;
     using Matrix = typename G::Matrix;
 
-    /// `isReduced`: leave g out of the equations where the body is free; `isAdjoint`: chart at the end of
+    /// `isReduced`: leave g out of the equations where L is invariant; `isAdjoint`: chart at the end of
     /// the step.
-    LieStep(const BodyMechanics<T>& body, Table<T> table, const T& step, bool isReduced, bool isAdjoint,
+    LieStep(const Mechanics& mechanics, Table<T> table, const T& step, bool isReduced, bool isAdjoint,
             SolverPolicy policy);
 
     /// Moves the pose by one step and adds to the report. On failure it is left as it was.
-    Outcome advance(Pose<T>& pose, StepReport& report, const std::stop_token& stop);
+    Outcome advance(Pose& pose, StepReport& report, const std::stop_token& stop);
 
     /// The pose of the last step at tau in [0, 1] from its start.
-    Pose<T> denseOutput(const T& tau) const;
+    Pose denseOutput(const T& tau) const;
 
     /// W <- M W for columns (zeta, dmu), with the tangent map M of the last step (lie_step_tangent.hpp).
     /// False where its equations are singular.
     bool applyTangent(T* W, int columns);
 
+    const G& group() const { return group_; }
     /// Y of the last step, n x m: column a is the coefficient of the table's function a.
     const Eigen::Matrix<T, n, Eigen::Dynamic>& coefficients() const { return Y_; }
     /// Steps of another length from now on.
     void setStep(const T& step) { h_ = isAdjoint_ ? T(-step) : step; }
     /// The impulse of the last step, which the first Jacobian of the next one takes for its own.
+    void forget() { W_.setZero(); }
     void checkpoint(Archive& archive) requires std::is_same_v<T, double> { archive(W_); }
 
 private:
     using Columns = Eigen::Matrix<T, n, Eigen::Dynamic>;
     using Square = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
     using Flat = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+    using Lagrangian = ChartLagrangian<T, G>;
+    /// Of a space on which the group acts: equations xi_k = 0 in place of some (sphere_group.hpp).
+    static constexpr bool hasIsotropy = requires(const G& group) { group.isotropy(); };
     int m() const { return table_.unknowns(); }
+    int d() const {
+        if constexpr (n == Eigen::Dynamic)
+            return group_.dimension();
+        else
+            return n;
+    }
+    /// The entries of function a in the flat vector, and block (a, c) of the Jacobian.
+    auto part(int a) { return flat_.template segment<n>(d() * a, d()); }
     int nodes() const { return table_.nodes(); }
     void placeNodes();
     void placeFoot();
     bool predict();
     void residual();
     /// The matrix of lu_, to be filled.
-    auto jacobian() { return Eigen::Map<Square>(lu_.column(0), n * m(), n * m()); }
+    auto jacobian() { return Eigen::Map<Square>(lu_.column(0), d() * m(), d() * m()); }
     Outcome assembleJacobian();
-    void addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A, Matrix& xiXi);
+    void addForceAt(int i, const typename G::template Chart<2>& at, const typename Lagrangian::ForceSlope& F);
     T correction();
-    T floor() const;
     void correct();
     void updateImpulse();
     Outcome iterate(const std::stop_token& stop);
@@ -99,15 +116,16 @@ private:
         };
     }
 
-    BodyMechanics<T> body_;
+    G group_;
     Table<T> table_;
     T h_;                           ///< negative in the adjoint step
     bool isUnreduced_, isAdjoint_;  ///< isUnreduced_: g is in the equations
     SolverPolicy policy_;
     T tolerance_;
-    ChartLagrangian<T, G> lagrangian_;
+    Lagrangian lagrangian_;
+    StepGuess<T, G> guess_;
 
-    Pose<T> known_, base_;  ///< the start of the step; the base point of the chart (the same, or the end)
+    Pose known_, base_;  ///< the start of the step; the base point of the chart (the same, or the end)
     typename G::Element baseElement_;
     Vector mu_;  ///< momentum at the start, in the body
     Vector W_;
@@ -116,8 +134,7 @@ private:
     Columns points_;
     SmallLu<T> lu_;  ///< the Jacobian, then its factors
     Flat flat_;
-    std::vector<T> times_;        ///< of the m points
-    std::vector<Pose<T>> poses_;  ///< guesses at the start and the m points
+    std::vector<T> times_;  ///< of the m points
     StepReport* report_ = nullptr;
 };
 

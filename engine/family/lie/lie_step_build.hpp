@@ -3,34 +3,33 @@
 /// for quadruple precision.
 #pragma once
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "engine/action/chain_rule.hpp"
-#include "engine/family/lie/lie_guess.hpp"
+#include "engine/core/algebra/lu.hpp"
 #include "engine/family/lie/lie_step.hpp"
 #include "engine/family/lie/lie_step_tangent.hpp"
 
 namespace extremal {
 
 template <class T, class G>
-LieStep<T, G>::LieStep(const BodyMechanics<T>& body, Table<T> table, const T& step, bool isReduced,
+LieStep<T, G>::LieStep(const Mechanics& mechanics, Table<T> table, const T& step, bool isReduced,
                        bool isAdjoint, SolverPolicy policy)
-    : body_(body),
+    : group_(mechanics),
       table_(std::move(table)),
       h_(isAdjoint ? T(-step) : step),
-      isUnreduced_(!body.isFree() || !isReduced),
       isAdjoint_(isAdjoint),
       policy_(policy),
       tolerance_(toleranceOf<T>(policy)),
-      lagrangian_(body) {
-    for (Columns* c : {&Y_, &R_, &points_}) *c = Columns::Zero(n, m());
-    for (Columns* c : {&xi_, &v_, &force_}) *c = Columns::Zero(n, nodes());
-    W_ = mu_ = Vector::Zero();
-    const int size = n * m();
+      lagrangian_(mechanics),
+      guess_(group_, mechanics, m()) {
+    isUnreduced_ = !lagrangian_.isFree() || (Lagrangian::hasSpaceForm && !isReduced);
+    for (Columns* c : {&Y_, &R_, &points_}) *c = Columns::Zero(d(), m());
+    for (Columns* c : {&xi_, &v_, &force_}) *c = Columns::Zero(d(), nodes());
+    W_ = mu_ = Vector::Zero(d());
+    const int size = d() * m();
     lu_ = SmallLu<T>(size);
     flat_ = Flat::Zero(size);
     // Y from the values of xi at m points, and back.
@@ -44,7 +43,6 @@ LieStep<T, G>::LieStep(const BodyMechanics<T>& body, Table<T> table, const T& st
             Eigen::Map<const Flat>(value.data(), table_.space.size).transpose() * table_.change;
     }
     fit_ = atPoints_.partialPivLu().inverse();
-    poses_.resize(static_cast<std::size_t>(m() + 1));
 }
 
 /// xi_i and xi'_i from Y.
@@ -59,31 +57,14 @@ void LieStep<T, G>::placeNodes() {
 template <class T, class G>
 void LieStep<T, G>::placeFoot() {
     if (!isAdjoint_) return;
-    base_ = G::place(known_, G::element(known_), -Y_.col(m() - 1));
-    baseElement_ = G::element(base_);
+    base_ = group_.place(known_, group_.element(known_), -Y_.col(m() - 1));
+    baseElement_ = group_.element(base_);
 }
 
 /// Y of the curve through guessed poses at the m points; false where the step is so long that there is none.
 template <class T, class G>
 bool LieStep<T, G>::predict() {
-    poses_[0] = known_;
-    poses_[0].momentum = mu_.template head<3>();
-    const T step = isAdjoint_ ? T(-h_) : h_;
-    for (int k = 0; k < m(); ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        poses_[at + 1] =
-            guessedAfter(body_, poses_[at], T((times_[at] - (k > 0 ? times_[at - 1] : T(0))) * step));
-    }
-    // The points are symmetric in time: the adjoint step sees the same ones from the end.
-    const auto last = static_cast<std::size_t>(m());
-    const Pose<T>& base = poses_[isAdjoint_ ? last : 0];
-    const so3::Vector<T> w = mu_.template head<3>().cwiseQuotient(lagrangian_.inertia.template head<3>());
-    for (int k = 0; k < m(); ++k) {
-        const auto at = static_cast<std::size_t>(k + 1);
-        const Pose<T>& place = poses_[isAdjoint_ ? last - at : at];
-        const so3::Vector<T> near = (h_ * times_[at - 1]) * w;
-        points_.col(k) = G::coordinates(base, place, turnBetween(base.attitude, place.attitude, near));
-    }
+    guess_.curve(known_, mu_, times_, isAdjoint_ ? T(-h_) : h_, isAdjoint_, points_);
     Y_.noalias() = points_.lazyProduct(fit_.transpose());
     using std::isfinite;
     return isfinite(Y_.squaredNorm());
@@ -97,65 +78,68 @@ void LieStep<T, G>::residual() {
     W_.setZero();
     if (isUnreduced_) placeFoot();
     for (int i = 0; i < nodes(); ++i) {
-        const typename G::template Chart<1> at(xi_.col(i));
+        typename G::template Chart<1> at = group_.template chart<1>(xi_.col(i));
         Vector forXi, forV;
         if (!isUnreduced_) {
             lagrangian_.gradient(at, v_.col(i), forXi, forV);
         } else {
-            const typename G::Element g = G::times(baseElement_, at);
-            Vector f;
-            if (body_.isFree()) {
-                lagrangian_.gradientInSpace(g, at, v_.col(i), forXi, forV, f);
-            } else {
-                lagrangian_.gradient(at, v_.col(i), forXi, forV);
-                body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(),
-                                nullptr);
-            }
-            forXi += at.dexpTransposed(f);
+            const typename G::Element g = group_.times(baseElement_, at);
+            const Vector f = lagrangian_.gradient(g, at, v_.col(i), forXi, forV);
             force_.col(i) = at.rotateMomentum(f);
             W_ -= (h_ * table_.weight(i)) * force_.col(i);
         }
         addGradient(m(), testAt(i), forXi, forV, [&](int a) { return R_.col(a); });
     }
-    const typename G::template Chart<0> end(Y_.col(m() - 1));
+    const typename G::template Chart<0> end = group_.template chart<0>(Y_.col(m() - 1));
     if (isAdjoint_)
         R_.col(m() - 1) -= end.dexpTransposed(mu_);
     else
         R_.col(m() - 1) -= end.dexpRightTransposed(mu_ - W_);
+    if constexpr (hasIsotropy)
+        for (const int k : group_.isotropy()) R_.row(k) = Y_.row(k);
     // Of the attitude, a free body has a force to evaluate besides.
-    report_->cost.evaluations += (isUnreduced_ && body_.isFree() ? 2 : 1) * nodes();
+    report_->cost.evaluations += (isUnreduced_ && lagrangian_.isFree() ? 2 : 1) * nodes();
 }
 
-/// Adds what the potential does to the second derivatives at node i; A = dexp(xi_i).
+/// Adds what the force at node i does to the equations through the base point, which moves with the last
+/// unknown of an adjoint step, and through W.
 template <class T, class G>
-void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A,
-                                   Matrix& xiXi) {
-    const typename G::Element g = G::times(baseElement_, at);
-    Vector f;
-    Matrix slope;
-    body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), slope.data());
-    ChartLagrangian<T, G>::addPotential(at, A, f, slope, xiXi);
+void LieStep<T, G>::addForceAt(int i, const typename G::template Chart<2>& at,
+                               const typename Lagrangian::ForceSlope& F) {
     auto jacobian = this->jacobian();
-    const int last = n * (m() - 1);
+    const int last = d() * (m() - 1);
     const Vector xiEnd = Y_.col(m() - 1);
-    const typename G::template Chart<0> end(xiEnd), opposite(-xiEnd);
+    const auto end = group_.template chart<0>(xiEnd), opposite = group_.template chart<0>(Vector(-xiEnd));
     if (isAdjoint_) {
         // The base point moves by -dexp(-xi_s) with the last unknown, and the node with it.
-        Matrix moved;
-        const Matrix base = opposite.dexpMatrix();
-        for (int k = 0; k < n; ++k) moved.col(k) = -at.rotateBack(base.col(k));
-        const Matrix change = A.transpose() * slope * moved;
-        for (int a = 0; a < m(); ++a)
-            jacobian.template block<n, n>(n * a, last) +=
-                (table_.weight(i) * h_ * table_.value(i, a)) * change;
-    } else {
-        // dexp(-xi_s)^T dW/dxi_i
-        const Matrix turned = (slope - G::precessionMatrix(f)) * A;
-        Matrix change;
-        for (int k = 0; k < n; ++k) change.col(k) = end.dexpRightTransposed(at.rotateMomentum(turned.col(k)));
-        for (int a = 0; a < m(); ++a)
-            jacobian.template block<n, n>(last, n * a) -=
-                (table_.weight(i) * h_ * table_.value(i, a)) * change;
+        Matrix moved = opposite.dexpMatrix();
+        for (int k = 0; k < d(); ++k) moved.col(k) = (-at.rotateBack(moved.col(k))).eval();
+        Matrix onXi = F.A.transpose() * F.S * moved, onV = Matrix::Zero(d(), d());
+        if constexpr (Lagrangian::isMixed) {
+            const Matrix change = F.N.lazyProduct(moved);
+            onXi += F.D.transpose().lazyProduct(change);
+            onV = F.A.transpose().lazyProduct(change);
+        }
+        addGradient(m(), testAt(i), onXi, onV,
+                    [&](int a) { return jacobian.template block<n, n>(d() * a, last, d(), d()); });
+        return;
+    }
+    // dexp(-xi_s)^T dW, with what xi and xi' do to the force.
+    Matrix byXi = (F.S - group_.precessionMatrix(F.f)) * F.A, byV = Matrix::Zero(d(), d());
+    if constexpr (Lagrangian::isMixed) {
+        byXi += F.N.transpose().lazyProduct(F.D);
+        byV = F.N.transpose().lazyProduct(F.A);
+    }
+    const auto carried = [&](Matrix& of) {
+        for (int k = 0; k < d(); ++k)
+            of.col(k) = end.dexpRightTransposed(at.rotateMomentum(of.col(k))).eval();
+    };
+    carried(byXi);
+    if constexpr (Lagrangian::isMixed) carried(byV);
+    for (int a = 0; a < m(); ++a) {
+        auto block = jacobian.template block<n, n>(last, d() * a, d(), d());
+        block -= (table_.weight(i) * h_ * table_.value(i, a)) * byXi;
+        if constexpr (Lagrangian::isMixed) block -= (table_.weight(i) * table_.derivative(i, a)) * byV;
     }
 }
 
@@ -166,9 +150,15 @@ Outcome LieStep<T, G>::assembleJacobian() {
     jacobian.setZero();
     if (isUnreduced_) placeFoot();
     for (int i = 0; i < nodes(); ++i) {
-        const typename G::template Chart<2> at(xi_.col(i));
-        auto L = lagrangian_.second(at, v_.col(i));
-        if (!body_.isFree()) addPotentialAt(i, at, L.A, L.xiXi);
+        typename G::template Chart<2> at = group_.template chart<2>(xi_.col(i));
+        typename Lagrangian::Second L;
+        if (lagrangian_.isFree()) {
+            L = lagrangian_.second(at, v_.col(i));
+        } else {
+            typename Lagrangian::ForceSlope F;
+            L = lagrangian_.second(group_.times(baseElement_, at), at, v_.col(i), F);
+            addForceAt(i, at, F);
+        }
         const Matrix xiV = L.vXi.transpose();
         addHessian(
             m(), m(), testAt(i),
@@ -176,65 +166,51 @@ Outcome LieStep<T, G>::assembleJacobian() {
                 return TrialFunction<T>{table_.value(i, c), table_.derivative(i, c)};
             },
             L.xiXi, xiV, L.vXi, L.vv,
-            [&](int a, int c) { return jacobian.template block<n, n>(n * a, n * c); });
+            [&](int a, int c) { return jacobian.template block<n, n>(d() * a, d() * c, d(), d()); });
     }
-    const typename G::template Chart<1> end(Y_.col(m() - 1));
-    const int last = n * (m() - 1);
-    jacobian.template block<n, n>(last, last) -=
+    const auto end = group_.template chart<1>(Y_.col(m() - 1));
+    const int last = d() * (m() - 1);
+    jacobian.template block<n, n>(last, last, d(), d()) -=
         isAdjoint_ ? end.derivativeOfTransposed(mu_) : end.derivativeOfRightTransposed(mu_ - W_);
+    if constexpr (hasIsotropy)
+        for (const int k : group_.isotropy())
+            for (int row = k; row < d() * m(); row += d()) {
+                jacobian.row(row).setZero();
+                jacobian(row, row) = 1;
+            }
     report_->cost.evaluations += nodes();
     ++report_->cost.linearSolves;
     // Inertias far apart make pivots far apart; only what is lost in round-off is singular.
-    switch (lu_.factorise()) {
-        case SmallLu<T>::Result::regular:
-            break;
-        case SmallLu<T>::Result::singular:
-            return Outcome::singular;
-        case SmallLu<T>::Result::notFinite:
-            return Outcome::notFinite;
-    }
-    return Outcome::converged;
+    return lu_.factorise();
 }
 
 /// Solves for the correction of Y from R, in flat_; returns its size relative to the unknowns.
 template <class T, class G>
 T LieStep<T, G>::correction() {
-    for (int a = 0; a < m(); ++a) flat_.template segment<n>(n * a) = -R_.col(a);
+    for (int a = 0; a < m(); ++a) part(a) = -R_.col(a);
     lu_.solve(flat_.data());
     ++report_->cost.linearSolves;
     T size(0), scale(0);
     using std::abs;
     for (int a = 0; a < m(); ++a)
-        for (int k = 0; k < n; ++k) {
-            const T d = abs(flat_(n * a + k));
-            if (!(d <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
-            size = std::max(size, d);
+        for (int k = 0; k < d(); ++k) {
+            const T change = abs(flat_(d() * a + k));
+            if (!(change <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
+            size = std::max(size, change);
             scale = std::max(scale, T(abs(Y_(k, a))));
         }
     return scale > T(0) ? T(size / scale) : size;
 }
 
-/// What round-off in the equations leaves of the corrections: they are momenta of the heaviest axis, or of
-/// the whole body on its way, and move the lightest axis.
-template <class T, class G>
-T LieStep<T, G>::floor() const {
-    T heaviest = lagrangian_.inertia.template head<3>().maxCoeff();
-    if constexpr (n == 6)
-        for (int a = 0; a < m(); ++a)
-            heaviest =
-                std::max(heaviest, T(lagrangian_.inertia(3) * Y_.col(a).template tail<3>().squaredNorm()));
-    return std::numeric_limits<T>::epsilon() * heaviest / lagrangian_.inertia.template head<3>().minCoeff();
-}
-
 template <class T, class G>
 void LieStep<T, G>::correct() {
-    if constexpr (n == 3) {
-        for (int a = 0; a < m(); ++a) Y_.col(a) += flat_.template segment<n>(n * a);
+    if constexpr (n != 6) {
+        for (int a = 0; a < m(); ++a) Y_.col(a) += part(a);
     } else {
         points_.noalias() = Y_.lazyProduct(atPoints_.transpose());
         for (int k = 0; k < m(); ++k) {
             Vector change = Vector::Zero();
-            for (int a = 0; a < m(); ++a) change += atPoints_(k, a) * flat_.template segment<n>(n * a);
+            for (int a = 0; a < m(); ++a) change += atPoints_(k, a) * part(a);
             points_.col(k) = G::corrected(points_.col(k), change);
         }
         Y_.noalias() = points_.lazyProduct(fit_.transpose());
@@ -247,12 +223,10 @@ template <class T, class G>
 void LieStep<T, G>::updateImpulse() {
     W_.setZero();
     placeFoot();
-    if (body_.isFree()) return;
+    if (lagrangian_.isFree()) return;
     for (int i = 0; i < nodes(); ++i) {
-        const typename G::template Chart<0> at(xi_.col(i));
-        const typename G::Element g = G::times(baseElement_, at);
-        Vector f;
-        body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), nullptr);
+        const auto at = group_.template chart<0>(xi_.col(i));
+        const Vector f = lagrangian_.force(group_.times(baseElement_, at), at, v_.col(i));
         force_.col(i) = at.rotateMomentum(f);
         W_ -= (h_ * table_.weight(i)) * force_.col(i);
     }
@@ -260,7 +234,7 @@ void LieStep<T, G>::updateImpulse() {
 }
 
 /// Newton's method from the predicted curve. Light axes stop further away from round-off than others: with a
-/// new Jacobian, floor() is what they can reach.
+/// new Jacobian, the floor of the Lagrangian is what they can reach.
 template <class T, class G>
 Outcome LieStep<T, G>::iterate(const std::stop_token& stop) {
     NewtonPolicy<T> policy(NewtonLimits<T>::lieStep(tolerance_));
@@ -275,7 +249,8 @@ Outcome LieStep<T, G>::iterate(const std::stop_token& stop) {
         report_->residual = static_cast<double>(size);
         if (!(size < std::numeric_limits<T>::infinity())) return Outcome::notFinite;
         correct();
-        const NewtonVerdict verdict = policy.judge(size, policy.isJacobianNew() ? floor() : T(0));
+        const NewtonVerdict verdict =
+            policy.judge(size, policy.isJacobianNew() ? lagrangian_.floor(Y_) : T(0));
         if (const auto end = endOf(verdict)) {
             if (*end == Outcome::converged) updateImpulse();
             return *end;
@@ -290,42 +265,41 @@ Outcome LieStep<T, G>::iterate(const std::stop_token& stop) {
 }
 
 template <class T, class G>
-Outcome LieStep<T, G>::advance(Pose<T>& pose, StepReport& report, const std::stop_token& stop) {
+Outcome LieStep<T, G>::advance(Pose& pose, StepReport& report, const std::stop_token& stop) {
     report_ = &report;
     known_ = base_ = pose;
-    baseElement_ = G::element(known_);
-    mu_ = G::bodyMomentum(baseElement_, known_);
-    if (!predict()) return isRateFinite(body_, poses_[0]) ? Outcome::diverged : Outcome::notFinite;
+    baseElement_ = group_.element(known_);
+    mu_ = group_.bodyMomentum(baseElement_, known_);
+    if (!predict()) return guess_.isRateFinite() ? Outcome::diverged : Outcome::notFinite;
     const Outcome solved = iterate(stop);
     if (solved != Outcome::converged) return solved;
-    // Beyond, the chart folds over itself at 2 pi, and the solution is hardly the wanted one.
     const Vector xiEnd = Y_.col(m() - 1);
-    if (xiEnd.template head<3>().squaredNorm() > T(25)) return Outcome::diverged;
+    if (group_.isBeyond(xiEnd)) return Outcome::diverged;
     if (isAdjoint_) {
-        G::fetch(base_, baseElement_, W_, known_);
+        group_.fetch(base_, baseElement_, W_, known_);
         pose = base_;
     } else {
-        Pose<T> end = G::place(base_, baseElement_, xiEnd);
-        G::carry(base_, baseElement_, W_, end);
+        Pose end = group_.place(base_, baseElement_, xiEnd);
+        group_.carry(base_, baseElement_, W_, end);
         pose = end;
     }
     return Outcome::converged;
 }
 
 template <class T, class G>
-Pose<T> LieStep<T, G>::denseOutput(const T& tau) const {
+typename LieStep<T, G>::Pose LieStep<T, G>::denseOutput(const T& tau) const {
     const T s = isAdjoint_ ? T(1) - tau : tau;
     std::vector<T> value(static_cast<std::size_t>(table_.space.size)), slope(value.size());
     table_.space.evaluate(s, value, slope);
     const Flat phi = table_.change.transpose() * Eigen::Map<const Flat>(value.data(), table_.space.size);
     const Vector xi = Y_ * phi;
-    Vector W = Vector::Zero();
+    Vector W = Vector::Zero(d());
     if (isUnreduced_) {
         const std::vector<T> share = weightsUpTo(table_, s);
         for (int i = 0; i < nodes(); ++i) W -= (h_ * share[static_cast<std::size_t>(i)]) * force_.col(i);
     }
-    Pose<T> at = G::place(base_, baseElement_, xi);
-    G::carry(base_, baseElement_, W, at);
+    Pose at = group_.place(base_, baseElement_, xi);
+    group_.carry(base_, baseElement_, W, at);
     return at;
 }
 

@@ -18,24 +18,30 @@ namespace extremal {
 /// to R_ where Y stays.
 template <class T, class G>
 typename LieStep<T, G>::Vector LieStep<T, G>::vary(const Vector& base, bool movesY) {
-    Vector dW = Vector::Zero();
+    Vector dW = Vector::Zero(d());
     R_.setZero();
-    if (body_.isFree()) return dW;
+    if (lagrangian_.isFree()) return dW;
     for (int i = 0; i < nodes(); ++i) {
-        const typename G::template Chart<2> at(xi_.col(i));
-        const typename G::Element g = G::times(baseElement_, at);
-        const Matrix A = at.dexpMatrix();
-        Vector f, moved = Vector::Zero();
-        Matrix slope;
-        body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), slope.data());
-        for (int a = 0; a < m() && movesY; ++a)
-            moved += table_.value(i, a) * flat_.template segment<n>(n * a);
-        moved = A * moved;
-        const Vector df = slope * (at.rotateBack(base) + moved);
-        dW -= (h_ * table_.weight(i)) * at.rotateMomentum(df - G::precession(f, moved));
+        typename G::template Chart<2> at = group_.template chart<2>(xi_.col(i));
+        const auto F = lagrangian_.forceSlope(group_.times(baseElement_, at), at, v_.col(i));
+        Vector dXi = Vector::Zero(d()), dV = dXi;
+        for (int a = 0; a < m() && movesY; ++a) {
+            dXi += table_.value(i, a) * part(a);
+            if constexpr (Lagrangian::isMixed) dV += (table_.derivative(i, a) / h_) * part(a);
+        }
+        const Vector moved = F.A * dXi, along = at.rotateBack(base) + moved;
+        Vector df = F.S * along;
+        if constexpr (Lagrangian::isMixed)
+            df += F.N.transpose().lazyProduct(F.D.lazyProduct(dXi) + F.A.lazyProduct(dV));
+        dW -= (h_ * table_.weight(i)) * at.rotateMomentum(df - group_.precession(F.f, moved));
         if (movesY) continue;
-        const Vector onXi = A.transpose() * df;
-        for (int a = 0; a < m(); ++a) R_.col(a) += (h_ * table_.weight(i) * table_.value(i, a)) * onXi;
+        Vector onXi = F.A.transpose() * df, onV = Vector::Zero(d());
+        if constexpr (Lagrangian::isMixed) {
+            const Vector change = F.N.lazyProduct(along);
+            onXi += F.D.transpose().lazyProduct(change);
+            onV = F.A.transpose().lazyProduct(change);
+        }
+        addGradient(m(), testAt(i), onXi, onV, [&](int a) { return R_.col(a); });
     }
     return dW;
 }
@@ -46,26 +52,27 @@ bool LieStep<T, G>::applyTangent(T* W, int columns) {
     report_ = &unused;
     if (assembleJacobian() != Outcome::converged) return false;
     const Vector xiEnd = Y_.col(m() - 1);
-    const typename G::template Chart<0> end(xiEnd), opposite(-xiEnd);
-    for (T* w = W; columns > 0; --columns, w += 2 * n) {
-        Eigen::Map<Vector> zeta(w), dmu(w + n);
+    const auto end = group_.template chart<0>(xiEnd), opposite = group_.template chart<0>(Vector(-xiEnd));
+    for (T* w = W; columns > 0; --columns, w += 2 * d()) {
+        Eigen::Map<Vector> zeta(w, d()), dmu(w + d(), d());
         Vector base = isAdjoint_ ? opposite.rotateBack(zeta) : Vector(zeta);
         Vector dW = vary(base, false);
         R_.col(m() - 1) -= isAdjoint_ ? end.dexpTransposed(dmu) : end.dexpRightTransposed(dmu - dW);
-        for (int a = 0; a < m(); ++a) flat_.template segment<n>(n * a) = -R_.col(a);
+        for (int a = 0; a < m(); ++a) part(a) = -R_.col(a);
         lu_.solve(flat_.data());
-        const Vector dxi = flat_.template segment<n>(n * (m() - 1));
+        const Vector dxi = part(m() - 1);
         if (isAdjoint_) {
             const Vector eta = -opposite.dexp(dxi);
             base += eta;
             dW = vary(base, true);
-            dmu = (end.rotateMomentum(dmu) + G::precession(end.rotateMomentum(mu_), eta) + dW).eval();
+            dmu = (end.rotateMomentum(dmu) + group_.precession(end.rotateMomentum(mu_), eta) + dW).eval();
             zeta = base;
         } else {
             const Vector eta = end.dexp(dxi);
             dW = vary(base, true);
-            dmu = (end.rotateMomentumBack(dmu - dW) + G::precession(end.rotateMomentumBack(mu_ - W_), eta))
-                      .eval();
+            dmu =
+                (end.rotateMomentumBack(dmu - dW) + group_.precession(end.rotateMomentumBack(mu_ - W_), eta))
+                    .eval();
             zeta = (end.rotateBack(zeta) + eta).eval();
         }
     }

@@ -9,6 +9,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/group/so3.hpp"
+#include "engine/model/casimir_measure.hpp"
 
 namespace extremal {
 namespace {
@@ -155,11 +156,9 @@ double bodyPotential(const BodyMechanics<double>& body, const double* x) {
 }
 
 void addCasimir(System& system, EnergyFunction casimir) {
-    system.measures.push_back({"casimir", {{"casimir", "", "C", ""}}, -1, [casimir](const State&) {
-                                   return [casimir](double t, const double* x, double* values) {
-                                       values[0] = casimir(t, x);
-                                   };
-                               }});
+    system.measures.push_back(
+        casimirMeasure({{"casimir", "", "C", ""}},
+                       [casimir](double t, const double* x, double* values) { values[0] = casimir(t, x); }));
 }
 
 void describeBody(System& system, const Body& body) {

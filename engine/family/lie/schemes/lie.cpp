@@ -8,11 +8,12 @@ SchemeEntry lie() {
     SchemeEntry e;
     e.item = {"lie-<s>",
               "Lie group Gauss",
-              "Degree s in the algebra with Gauss(s), for rigid bodies: order 2s, keeps the spatial momentum "
+              "Degree s in the algebra with Gauss(s), for bodies and Lie groups: order 2s, keeps the spatial "
+              "momentum "
               "to round-off.",
               {},
               {},
-              "a rigid body"};
+              "a rigid body, a Lie group or points on spheres"};
     e.source = "Leok 2004, sec. 3.2";
     e.minDegree = 1;
     e.maxDegree = 8;

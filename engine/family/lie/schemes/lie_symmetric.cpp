@@ -12,7 +12,7 @@ SchemeEntry lie_symmetric() {
               "returns to the start.",
               {},
               {},
-              "a rigid body"};
+              "a rigid body, a Lie group or points on spheres"};
     e.source = "Leok 2004, sec. 3.2; Hairer, Lubich and Wanner 2006, II.3";
     e.minDegree = 1;
     e.maxDegree = 8;

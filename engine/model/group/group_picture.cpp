@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "engine/group/so3.hpp"
+#include "engine/model/body/body_shape.hpp"
+#include "engine/model/body/rigid.hpp"
+#include "engine/model/group/group_system.hpp"
+#include "engine/model/group/named_groups.hpp"
+
+namespace extremal::groups {
+namespace {
+
+using Factor = MatrixGroup::Factor;
+
+constexpr double apart = 3;  ///< middles of bodies that stand side by side
+
+/// Entries of the inertia at rest at the identity.
+std::vector<double> inertiaOf(const GroupMechanics& on) {
+    const int d = on.dimension();
+    const MatrixGroup::Entries g = on.group->identity();
+    MatrixGroup::Vector eta = MatrixGroup::Vector::Zero(d), m(d);
+    MatrixGroup::Matrix M(d, d);
+    double value = 0;
+    on.jet(on.model.get(), g.data(), eta.data(), &value, m.data(), nullptr, M.data(), nullptr, nullptr);
+    std::vector<double> diagonal;
+    for (int i = 0; i < d; ++i) diagonal.push_back(M(i, i) > 0 && std::isfinite(M(i, i)) ? M(i, i) : 1);
+    return diagonal;
+}
+
+struct DrawnBody {
+    int entry = 0;
+    std::array<double, 3> centre{};
+    BodyShape shape;
+};
+
+void drawBodies(const std::vector<DrawnBody>& bodies, const double* x, Drawing& drawing) {
+    using Square = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+    const DrawnBody& last = bodies.back();
+    const Square tip(x + last.entry);
+    drawing.tracer = onStage(last.centre[0] + 1.5 * tip(0, 2), 1.5 * tip(1, 2), 1.5 * tip(2, 2));
+    if (drawing.isTracerOnly) return;
+    drawSpaceAxes(1.9, drawing);
+    for (const DrawnBody& body : bodies) {
+        const so3::Quaternion<double> q = so3::quaternion(so3::Matrix<double>(Square(x + body.entry)));
+        drawBody(body.shape, body.centre, q.data(), drawing);
+    }
+    drawing.shapes.push_back(Disc{drawing.tracer, 4});
+}
+
+/// A plate at (g13, g23), turned by the upper left block.
+void drawPlate(int entry, const double* x, Drawing& drawing) {
+    const double* const g = x + entry;
+    const auto at = [&](double a, double b) {
+        return Point{g[0] * a + g[1] * b + g[2], g[3] * a + g[4] * b + g[5], 0};
+    };
+    drawing.tracer = at(0, 0);
+    if (drawing.isTracerOnly) return;
+    Curve outline;
+    outline.role = ShapeRole::body;
+    outline.width = 2;
+    for (int k = 0; k <= 48; ++k)
+        outline.points.push_back(
+            at(0.5 * std::cos(k * std::numbers::pi / 24), 0.2 * std::sin(k * std::numbers::pi / 24)));
+    drawing.shapes.push_back(std::move(outline));
+    drawing.shapes.push_back(Segment{at(0, 0), at(0.5, 0), 1.5});
+    drawing.shapes.push_back(Disc{at(0, 0), 4});
+}
+
+}  // namespace
+
+void describePicture(System& system, const GroupMechanics& on) {
+    const std::vector<double> inertia = inertiaOf(on);
+    std::vector<DrawnBody> bodies;
+    const auto& factors = on.group->factors();
+    const auto count = static_cast<double>(factors.size());
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+        const Factor& f = factors[k];
+        if (f.n != 3 || !on.invariants->isOrthogonal(k)) continue;
+        BodyMechanics<double> body;
+        body.dimension = 3;
+        std::copy_n(inertia.begin() + f.coordinate, 3, body.inertia.begin());
+        const double middle = apart * (static_cast<double>(k) - (count - 1) / 2);
+        bodies.push_back({f.entry, {middle, 0, 0}, shapeOf(body, Settings{"", {{"shape", "box"}}, {}})});
+    }
+    if (!bodies.empty()) {
+        system.isSpatial = true;
+        system.draw = [bodies](const double* x, Drawing& drawing) { drawBodies(bodies, x, drawing); };
+        return;
+    }
+    const std::vector<MatrixGroup::Square> plane = basisOf("se2");
+    if (factors.size() != 1 || factors[0].basis.size() != plane.size() || factors[0].n != 3 ||
+        !std::equal(plane.begin(), plane.end(), factors[0].basis.begin(),
+                    [](const auto& a, const auto& b) { return a == b; }))
+        return;
+    system.draw = [entry = factors[0].entry](const double* x, Drawing& drawing) {
+        drawPlate(entry, x, drawing);
+    };
+    system.hasPlanarTrajectory = true;
+    system.trajectoryX = "g.13";
+    system.trajectoryY = "g.23";
+}
+
+}  // namespace extremal::groups
