@@ -1,22 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/baseline/wave_splitting.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "engine/baseline/parts.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/lanes_trigonometry.hpp"
 #include "engine/family/wave/wave.hpp"
 #include "engine/family/wave/wave_step.hpp"
+#include "engine/model/wave/interaction.hpp"
 
 namespace extremal {
 namespace {
 
+/// psi_j *= scale exp(i factor (V_j + density |psi_j|^2)), eight together; real and imaginary parts in turn.
+inline void kickLanes(const double* V, double density, double factor, double scale, std::size_t n,
+                      double* psi) {
+    for (std::size_t first = 0; first < n; first += Lanes::size) {
+        const std::size_t count = std::min(Lanes::size, n - first);
+        double* const at = psi + 2 * first;
+        Lanes re, im, angle;
+        for (std::size_t k = 0; k < count; ++k) {
+            re.lane[k] = at[2 * k];
+            im.lane[k] = at[2 * k + 1];
+            angle.lane[k] = V[first + k];
+        }
+        angle = Lanes(factor) * (angle + Lanes(density) * (re * re + im * im));
+        const Lanes c = Lanes(scale) * cos(angle), s = Lanes(scale) * sin(angle), x = re * c - im * s,
+                    y = re * s + im * c;
+        for (std::size_t k = 0; k < count; ++k) {
+            at[2 * k] = x.lane[k];
+            at[2 * k + 1] = y.lane[k];
+        }
+    }
+}
+
 class WaveSplitting final : public WaveStep {
 public:
-    WaveSplitting(std::shared_ptr<const Hamiltonian> hamiltonian, double step, const Splitting& splitting)
+    /// |psi| does not change in a kick, so that g |psi|^2 acts as V does; a rotation commutes with the
+    /// kinetic part.
+    WaveSplitting(std::shared_ptr<const Hamiltonian> hamiltonian, double step, const Splitting& splitting,
+                  Coupling coupling)
         : WaveStep(std::move(hamiltonian), step, 0),
           splitting_(splitting),
+          omega_(coupling.omega),
+          density_(coupling.g / shared()->grid().measure()),
           psi_(static_cast<std::size_t>(n())) {}
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<WaveSplitting>(*this); }
@@ -26,23 +57,27 @@ public:
     }
 
 private:
+    bool isLinear() const override { return density_ == 0; }
+    /// The same fraction of an earlier stage, or this one.
+    std::size_t firstLike(std::size_t k) const {
+        std::size_t same = 0;
+        const auto& stages = splitting_.stages;
+        while (stages[same].isKick != stages[k].isKick || stages[same].fraction != stages[k].fraction) ++same;
+        return same;
+    }
+    bool hasFixedKicks() const { return density_ == 0 && !shared()->isTimeDependent(); }
     void prepare() override {
         phases_.clear();
         const Hamiltonian& h = *shared();
         const double unit = dt() / h.hbar();
         for (const SplittingStage& s : splitting_.stages) {
             if (stop().stop_requested()) return;
-            if (s.isKick && h.isTimeDependent()) {
+            if (s.isKick && !hasFixedKicks()) {
                 phases_.emplace_back();
                 continue;
             }
             // Equal fractions share their phases: a table has each twice.
-            std::size_t same = 0;
-            while (same < phases_.size() &&
-                   !(splitting_.stages[same].isKick == s.isKick &&
-                     splitting_.stages[same].fraction == s.fraction && !phases_[same]->empty()))
-                ++same;
-            if (same < phases_.size()) {
+            if (const std::size_t same = firstLike(phases_.size()); same < phases_.size()) {
                 phases_.push_back(phases_[same]);
                 continue;
             }
@@ -51,7 +86,20 @@ private:
                 phases->push_back(std::polar(s.isKick ? 1.0 / h.size() : 1.0, -s.fraction * unit * E));
             phases_.push_back(std::move(phases));
         }
-        if (h.isTimeDependent()) V_.resize(psi_.size());
+        if (!hasFixedKicks()) V_ = h.potential();
+        prepareTurns();
+    }
+    void prepareTurns() {
+        turns_.clear();
+        for (std::size_t k = 0; omega_ != 0 && k < splitting_.stages.size(); ++k) {
+            if (stop().stop_requested()) return;
+            const SplittingStage& s = splitting_.stages[k];
+            const std::size_t first = firstLike(k);
+            turns_.push_back(s.isKick ? nullptr
+                             : first < k
+                                 ? turns_[first]
+                                 : std::make_shared<const PlaneTurn>(*shared(), s.fraction * dt() * omega_));
+        }
     }
     void forget() override { hasNodes_ = false; }
     void step(double t, Complex* v, std::vector<double>&, StepReport& report) override {
@@ -63,6 +111,7 @@ private:
             }
             if (!stages[k].isKick) {
                 multiply(v, *phases_[k]);
+                if (!turns_.empty()) turns_[k]->apply(v);
                 t += stages[k].fraction * dt();
                 continue;
             }
@@ -77,10 +126,11 @@ private:
             for (Complex& x : psi_) x *= static_cast<double>(n());
     }
     void kick(std::size_t k, double t) {
-        if (!shared()->isTimeDependent()) return multiply(psi_.data(), *phases_[k]);
-        shared()->potentialAt(t, V_.data());
-        const double factor = -splitting_.stages[k].fraction * dt() / shared()->hbar();
-        for (std::size_t j = 0; j < psi_.size(); ++j) psi_[j] *= std::polar(1.0 / n(), factor * V_[j]);
+        if (hasFixedKicks()) return multiply(psi_.data(), *phases_[k]);
+        if (shared()->isTimeDependent()) shared()->potentialAt(t, V_.data());
+        static const auto call = ForThisMachine<&kickLanes>::call();
+        call(V_.data(), density_, -splitting_.stages[k].fraction * dt() / shared()->hbar(), 1.0 / n(),
+             psi_.size(), reinterpret_cast<double*>(psi_.data()));
     }
     static void multiply(Complex* v, const std::vector<Complex>& phases) {
         double* x = reinterpret_cast<double*>(v);
@@ -93,7 +143,10 @@ private:
     }
 
     Splitting splitting_;
+    double omega_;    ///< of the rotating frame
+    double density_;  ///< g |psi|^2 over the square of what psi_ holds
     std::vector<std::shared_ptr<const std::vector<Complex>>> phases_;
+    std::vector<std::shared_ptr<const PlaneTurn>> turns_;  ///< of drifts, where there is a rotation
     std::vector<Complex> psi_;  ///< at the nodes, without the factor of the transform
     std::vector<double> V_;
     bool hasNodes_ = false;
@@ -104,7 +157,7 @@ private:
 std::unique_ptr<Integrator> makeWaveSplitting(const System& system, double step, const Splitting& splitting) {
     requireSplit(system, "/baseline", "split-step",
                  "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
-    return std::make_unique<WaveSplitting>(system.hamiltonian(), step, splitting);
+    return std::make_unique<WaveSplitting>(system.hamiltonian(), step, splitting, couplingOf(system.parts));
 }
 
 BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description,
@@ -116,7 +169,7 @@ BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::stri
               {},
               Claims{splitting.order, true, true, {"norm"}},
               "a wave function"};
-    e.takes = Takes::only<Wave>();
+    e.takes = Takes::only<Wave, Interaction, Rotation>();
     e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.make = [splitting](const System& system, const BaselineOptions& options) {
         return makeWaveSplitting(system, options.step, splitting);

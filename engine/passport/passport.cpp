@@ -6,11 +6,13 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/family/parts/test_space.hpp"
 #include "engine/family/parts/written_on_system.hpp"
 #include "engine/passport/measured.hpp"
 #include "engine/passport/scene_formula.hpp"
 #include "engine/passport/scheme_tableau.hpp"
 #include "engine/passport/tableau_page.hpp"
+#include "engine/phase/monitored.hpp"
 #include "engine/scene/outlook/scheme_stability.hpp"
 
 namespace extremal {
@@ -61,10 +63,17 @@ void addKind(const ResolvedScene& scene, const ResolvedScheme& scheme, Document&
         for (const double g : scheme.parts) parts += (parts.empty() ? "" : ", ") + formatNumber(g, 15);
         add("composition", scheme.spec.composition.type + ", parts " + parts);
     }
+    if (scheme.isTested())
+        add("gives up", "the symplectic form: the defect of a step is C h^" +
+                            std::to_string(scheme.discretization.space.integer("degree") * 2 + 1));
+    if (scheme.isMonitored()) {
+        const std::string formula = scheme.spec.monitor.text("monitor");
+        add("monitor", formula.empty() ? scheme.spec.monitor.type : formula);
+    }
     if (scheme.isAdaptive())
         add("tolerance", formatNumber(scheme.spec.tolerance.value_or(0)));
     else
-        add("step", formatNumber(scheme.spec.step.value));
+        add(scheme.isMonitored() ? "first step" : "step", formatNumber(scheme.spec.step.value));
     add("claims", claimsText(scheme.claims, *scene.system));
     add("caution", scheme.properties.shortfall);
     page.blocks.emplace_back(std::move(t));
@@ -73,12 +82,24 @@ void addKind(const ResolvedScene& scene, const ResolvedScheme& scheme, Document&
 void addAction(const ResolvedScheme& scheme, const System& system, Document& page) {
     if (!scheme.family) return;
     const auto* const onSystem = scheme.family->parts.find<WrittenOnSystem>();
-    const auto own = onSystem ? onSystem->written(scheme.discretization, system) : std::nullopt;
-    const WrittenAction w = own ? *own : scheme.family->written(scheme.discretization);
-    page.blocks.emplace_back(Document::Heading{"The discrete action"});
+    const bool isMonitored = scheme.isMonitored() && hasHamiltonian(system);
+    const auto own = !onSystem     ? std::nullopt
+                     : isMonitored ? onSystem->written(scheme.discretization, monitoredKind(system))
+                                   : onSystem->written(scheme.discretization, system);
+    const auto* const test = scheme.isTested() ? scheme.family->parts.find<TestSpace>() : nullptr;
+    const WrittenAction w = test  ? test->written(scheme.discretization, scheme.spec.keep)
+                            : own ? *own
+                                  : scheme.family->written(scheme.discretization);
+    page.blocks.emplace_back(Document::Heading{test ? "The curve" : "The discrete action"});
     page.blocks.emplace_back(Document::Paragraph{w.meaning});
+    if (isMonitored)
+        page.blocks.emplace_back(Document::Paragraph{
+            "Steps follow the monitor g: dt = g dτ with equal steps dτ. H below is K = g(q, p) (H(q, p) − "
+            "H₀), "
+            "with the time among the coordinates and −H₀, the energy at the start, as its momentum; h is dτ. "
+            "Symplectic is the step in (t, q; −E, p)."});
     page.blocks.emplace_back(Document::Formulas{w.action});
-    page.blocks.emplace_back(Document::Heading{"Stationarity"});
+    page.blocks.emplace_back(Document::Heading{test ? "What is kept" : "Stationarity"});
     page.blocks.emplace_back(Document::Formulas{w.stationarity});
 }
 
@@ -103,18 +124,6 @@ void addStability(const ResolvedScheme& scheme, const Tableau* tableau, Document
 }
 
 }  // namespace
-
-std::size_t schemeNamed(const ResolvedScene& scene, const std::string& label) {
-    std::vector<std::string> labels;
-    for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
-        const SchemeSpec& spec = scene.schemes[i].spec;
-        if (label.empty() ? spec.isEnabled : spec.label == label) return i;
-        labels.push_back(spec.label);
-    }
-    if (label.empty())
-        throw InvalidScene("--scheme", "no scheme is enabled", "name one of " + joinNames(labels));
-    throw InvalidScene("--scheme", "there is no scheme \"" + label + "\"", suggestName(label, labels));
-}
 
 Document passportOf(const ResolvedScene& scene, std::size_t place, const PassportOptions& options,
                     const std::stop_token& stop) {

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <stop_token>
-#include <string>
 
 #include "engine/passport/document.hpp"
 #include "engine/scene/resolve.hpp"
@@ -23,9 +22,5 @@ struct PassportOptions {
 /// Of a scheme of the scene, disabled ones as well. A stop leaves out what is measured.
 Document passportOf(const ResolvedScene& scene, std::size_t scheme, const PassportOptions& options = {},
                     const std::stop_token& stop = {});
-
-/// The place of the scheme with this label, or, empty, of the first that is enabled. Throws InvalidScene
-/// ("--scheme") where there is none.
-std::size_t schemeNamed(const ResolvedScene& scene, const std::string& label);
 
 }  // namespace extremal

@@ -225,6 +225,7 @@ std::string programOf(const ResolvedScene& scene, std::size_t place, ProgramLang
         refuse(system.id + " does not say its Lagrangian as a formula",
                "a model of type \"lagrangian\", or one of those that do: " + joinNames(modelsWithFormula()));
     if (!scheme.isFixed()) refuse("its steps are not all of one length");
+    if (scheme.isTested()) refuse("its steps keep invariants, which no table of an action does");
     const Method method = methodOf(scene, scheme);
 
     Writer w(isPython ? Language::python : Language::cpp);

@@ -12,7 +12,7 @@ namespace extremal {
 
 std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const ResolvedScheme& scheme,
                                          std::string& reason) {
-    const bool isHamiltonian = scene.system->isMovedOnlyBy<PhaseMechanics>();
+    const bool isHamiltonian = scene.system->isMovedOnlyBy<PhaseMechanics>() || scheme.isMonitored();
     if (!isHamiltonian && !scene.system->isMovedOnlyBy<Mechanical>()) {
         reason = scene.system->hasCoordinates()
                      ? "Runge-Kutta tableaus are for systems that a Lagrangian or a Hamiltonian alone moves, "
@@ -20,6 +20,10 @@ std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const Resol
                            scene.system->id + " is moved by more."
                      : "Runge-Kutta tableaus are for systems with coordinates, and " + scene.system->id +
                            " has none.";
+        return nullptr;
+    }
+    if (scheme.isTested()) {
+        reason = "Steps that keep invariants are tested by other functions than those of a tableau here.";
         return nullptr;
     }
     const auto* const tables = scheme.family ? scheme.family->parts.find<Tables>() : nullptr;

@@ -11,7 +11,7 @@
 #include "engine/baseline/field_method.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/family/field/field_step.hpp"
+#include "engine/family/field_march.hpp"
 #include "engine/model/wave/basis/fourier.hpp"
 
 namespace extremal::baselines {

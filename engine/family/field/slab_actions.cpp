@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/family/field/slab_actions.hpp"
 
-#include <Eigen/SparseLU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "engine/core/algebra/sparse.hpp"
+#include "engine/core/corrections.hpp"
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/mass_matrix.hpp"
-#include "engine/solve/corrections.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
@@ -40,10 +39,9 @@ public:
         const CorrectionLimits limits{.roundOff = 1e-12};
         return solveByCorrections(limits, {}, report, [&](int, double) {
                    const Eigen::VectorXd F = residual();
-                   const Eigen::SparseLU<SparseLevels> lu(jacobian());
-                   if (lu.info() != Eigen::Success) return Correction{.outcome = Outcome::singular};
-                   const Eigen::VectorXd delta = lu.solve(-F);
-                   if (!delta.allFinite()) return Correction{.outcome = Outcome::notFinite};
+                   Eigen::VectorXd delta;
+                   const Outcome found = solveSparse(jacobian(), -F, delta);
+                   if (found != Outcome::converged) return Correction{.outcome = found};
                    double size = 0;
                    for (std::size_t i = 0; i < n_; ++i)
                        for (int l = 1; l <= inner_; ++l)

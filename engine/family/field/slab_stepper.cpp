@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/family/field/slab_stepper.hpp"
 
-#include <Eigen/SparseLU>
-
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/sparse.hpp"
+#include "engine/core/corrections.hpp"
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/mass_matrix.hpp"
-#include "engine/solve/corrections.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
@@ -87,10 +86,9 @@ private:
         const Outcome solved = solveByCorrections(limits, stop(), report, [&](int, double) {
             Sparse J(size_, size_);
             assemble(x, u, p.data(), F, J);
-            Eigen::SparseLU<Sparse> lu(J);
-            if (lu.info() != Eigen::Success) return Correction{.outcome = Outcome::singular};
-            const Eigen::VectorXd delta = lu.solve(-F);
-            if (!delta.allFinite()) return Correction{.outcome = Outcome::notFinite};
+            Eigen::VectorXd delta;
+            const Outcome found = solveSparse(J, -F, delta);
+            if (found != Outcome::converged) return Correction{.outcome = found};
             x += delta;
             ++report.cost.linearSolves;
             return Correction{delta.head(unknowns_).cwiseAbs().maxCoeff(),

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/parts/advice.hpp"
 #include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/described_on_system.hpp"
 #include "engine/family/parts/nodes.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/family/parts/scheme_identity.hpp"
@@ -22,6 +24,7 @@
 #include "engine/family/wave/wave_collocation.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
+#include "engine/model/wave/interaction.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal::family {
@@ -141,7 +144,7 @@ Settings completeRule(const Settings& space, const Settings& quadrature) {
 std::string mismatchOf(const Discretization& d, const System& system) {
     if (isThreeLevel(d.space) && hasDirichletBoundary(system))
         return "the three-level form needs a periodic domain";
-    return {};
+    return interactionMismatch(system, d);
 }
 
 /// Three-level schemes: the limit is known exactly, so a step beyond it is not a doubt but an error.
@@ -157,7 +160,7 @@ void checkStep(const SchemeCase& scheme, Findings& findings) {
 /// long.
 ReferencePlan trusted(const System& system, const State& start, double duration) {
     const Hamiltonian& h = *system.hamiltonian();
-    if (h.dimension() == 2 && !h.isTimeDependent()) {
+    if (h.dimension() == 2 && !h.isTimeDependent() && !isCoupled(system.parts)) {
         ReferencePlan plan;
         constexpr double perStep = 60;
         const double products = duration * (h.highest() - h.lowest()) / (2 * h.hbar());
@@ -189,6 +192,7 @@ ChoiceGrid choices(const System& system) {
     };
     std::vector<SpaceRow> rows;
     for (const int degree : {1, 2, 3, 4, 6, 8, 12}) rows.push_back(row(degree, "one-step"));
+    if (isCoupled(system.parts)) return ruleChoices(rows);
     if (isPeriodic) rows.push_back(row(1, "three-level"));
     for (const int degree : {16, 32})
         rows.push_back(
@@ -217,7 +221,7 @@ Family wave() {
     f.item = {"wave", "wave function", "Modes in space, polynomials in time.", {}, {}, "a wave function"};
     f.source = "Leok 2004, sec. 8";
     f.spaces = {fourier(), spaceTime()};
-    f.takes = Takes::only<Wave>();
+    f.takes = Takes::only<Wave, Interaction, Rotation>();
     f.completeRule = completeRule;
     f.describe = describeWave;
     f.check = checkStep;
@@ -232,6 +236,13 @@ Family wave() {
     f.parts.set(NodesAlone{});
     f.parts.set(SchemeCondition{mismatchOf});
     f.parts.set(StartEstimate{withShift});
+    f.parts.set(
+        DescribedOnSystem{[](const Discretization& d, const System& system) -> std::optional<Properties> {
+            if (!isCoupled(system.parts)) return {};
+            Properties p = describe(d);
+            p.claims.conserves = {"norm"};  // the energy is bounded
+            return p;
+        }});
     f.parts.set(SlowestStep{[](const SchemeCase& scheme) {
         return 5e-3 * std::max(1.0, scheme.system.hamiltonian()->size() / 1024.0);
     }});

@@ -8,10 +8,12 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/family/wave/wave_collocation.hpp"
+#include "engine/family/wave/wave_interacting.hpp"
 #include "engine/family/wave/wave_slabs.hpp"
 #include "engine/family/wave/wave_step.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
 #include "engine/model/wave/basis/eigen.hpp"
+#include "engine/model/wave/interaction.hpp"
 #include "engine/solve/banded_poles.hpp"
 
 namespace extremal {
@@ -135,7 +137,10 @@ WavePlan planWave(const System& system, int degree, const Settings& solver, doub
 Discretization withShift(const Discretization& discretization, const System& system, const State& start) {
     Discretization known = discretization;
     if (!std::isnan(shiftOf(discretization.space))) return known;
-    const double shift = meanEnergy(*system.hamiltonian(), start);
+    const double shift = isCoupled(system.parts)
+                             ? chemicalPotential(system.hamiltonian(), couplingOf(system.parts), start.t,
+                                                 coefficients(start.x.data()))
+                             : meanEnergy(*system.hamiltonian(), start);
     for (auto& [key, value] : known.space.keys)
         if (key == "energy_shift") {
             value = shift;
@@ -204,8 +209,31 @@ std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& d
 
 }  // namespace
 
+std::string interactionMismatch(const System& system, const Discretization& discretization) {
+    if (!isCoupled(system.parts)) return {};
+    if (discretization.space.text("form") == "three-level")
+        return "the three-level form is for linear wave functions, without an interaction or a rotation";
+    if (discretization.space.find("slabs"))
+        return "polynomials on long slabs are for linear wave functions, without an interaction or a "
+               "rotation";
+    return {};
+}
+
 std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& discretization,
                                                double h) {
+    if (isCoupled(system.parts)) {
+        const std::string mismatch = interactionMismatch(system, discretization);
+        if (!mismatch.empty()) throw InvalidScene("/space", mismatch, "schrodinger-gauss-4, or strang");
+        const std::string& method = discretization.solver.type;
+        if (!method.empty() && method != "auto")
+            throw InvalidScene("/solver/method",
+                               method + " solves linear equations, without an interaction or a rotation",
+                               "auto");
+        return makeInteractingWave(system.hamiltonian(), couplingOf(system.parts), h,
+                                   shiftOf(discretization.space), discretization.space.integer("degree"),
+                                   discretization.solver.number("tolerance"),
+                                   discretization.solver.integer("max_iterations"));
+    }
     const int slabs = std::max(1, discretization.space.integer("slabs"));
     if (discretization.space.text("time_basis") == "chebyshev")
         requireSplit(system, "/space/time_basis", "chebyshev", "legendre");

@@ -8,6 +8,9 @@
 ///
 /// Three-level form, degree 1: wave_three_level.hpp.
 ///
+/// With an interaction g |psi|^2 the one-step form solves its stages by a fixed point (wave_interacting.hpp);
+/// the other forms, and the solvers below, are for linear equations.
+///
 /// How the solves are done, whichever is the cheapest by an estimate from N, s and the potential:
 ///     banded   elimination in Fourier space, in one dimension where V has few harmonics
 ///     (solve/banded_poles.hpp) dense    the eigenstates of H, once; N <= 512; where H is not split the only
@@ -39,6 +42,9 @@ void requirePeriodic(const System& system, const std::string& pointer, const std
 /// Likewise unless H is split.
 void requireSplit(const System& system, const std::string& pointer, const std::string& what,
                   const std::string& hint);
+
+/// Why a scheme cannot be used with an interaction; empty where it can, or there is no interaction.
+std::string interactionMismatch(const System& system, const Discretization& discretization);
 
 /// What was chosen, and why.
 struct WavePlan {

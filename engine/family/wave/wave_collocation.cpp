@@ -11,6 +11,7 @@
 #include "engine/core/algebra/dense.hpp"
 #include "engine/core/algebra/gmres.hpp"
 #include "engine/family/wave/wave_collocation.hpp"
+#include "engine/quadrature/collocation.hpp"
 
 namespace extremal {
 namespace {
@@ -37,12 +38,8 @@ private:
     void prepare() override {
         const auto s = static_cast<Eigen::Index>(stages_);
         const double factor = dt() / hamiltonian().hbar();
-        A_.resize(s, s);
+        A_ = collocationMatrix(rule_);
         std::vector<double> share(stages_);
-        for (Eigen::Index i = 0; i < s; ++i) {
-            partialWeights<double>(rule_, rule_.c[static_cast<std::size_t>(i)], share);
-            for (Eigen::Index j = 0; j < s; ++j) A_(i, j) = share[static_cast<std::size_t>(j)];
-        }
         // v(t + dt) = v + sum_i d_i (U_i - v), d A = b: no product with H once more.
         partialWeights<double>(rule_, 1.0, share);
         const Eigen::VectorXd b = Eigen::Map<const Eigen::VectorXd>(share.data(), s);

@@ -41,8 +41,10 @@ void WaveStep::setStep(double h) {
 }
 
 void WaveStep::estimateShift(const State& state) {
-    if (std::isnan(shift_)) shift_ = meanEnergy(*hamiltonian_, state);
+    if (std::isnan(shift_)) shift_ = shiftFrom(state);
 }
+
+double WaveStep::shiftFrom(const State& state) const { return meanEnergy(*hamiltonian_, state); }
 
 void WaveStep::begin(State& state) {
     estimateShift(state);

@@ -20,7 +20,7 @@ namespace extremal {
 
 class WaveStep : public Integrator {
 public:
-    /// `shift`: Ec, or NaN for <H> at the first state that is seen.
+    /// `shift`: Ec, or NaN for that of the first state that is seen.
     WaveStep(std::shared_ptr<const Hamiltonian> hamiltonian, double step, double shift);
 
     double stepSize() const final { return h_; }
@@ -29,8 +29,12 @@ public:
     StepReport advance(State& state, double until) final;
     /// A shorter step from the state before: as accurate as the scheme itself. Made on each use.
     void denseOutput(double tau, std::span<double> x) const final;
-    /// The step is linear: of a one-step scheme it is its own tangent map.
-    std::size_t tangentSize() const final { return memoryParts().empty() ? 2 * v_.size() : 0; }
+    /// A linear step of a one-step scheme is its own tangent map.
+    std::size_t tangentSize() const final { return isLinear() && memoryParts().empty() ? 2 * v_.size() : 0; }
+    std::string tangentProblem() const override {
+        return memoryParts().empty() ? "its map depends on the wave function that it moves"
+                                     : "it goes on from more than a state";
+    }
     bool applyTangent(std::span<double> W) final;
     bool checkpoint(Archive& archive) override;
     std::string about() const final { return about_; }
@@ -39,6 +43,9 @@ public:
 protected:
     /// Called before the first step of a size, when the shift is known. May be called again.
     virtual void prepare() {}
+    virtual bool isLinear() const { return true; }
+    /// Ec where it is to follow from the first state: <H>.
+    virtual double shiftFrom(const State& state) const;
     /// What v has beside it was made for another state.
     virtual void forget() {}
     /// v(t) -> v(t + dt). `memory`: of the state, moved on as well.

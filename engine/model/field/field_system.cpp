@@ -8,6 +8,7 @@
 #include "engine/model/field/exact_premise.hpp"
 #include "engine/model/field/profile.hpp"
 #include "engine/model/field/spatial_form.hpp"
+#include "engine/model/field/trigonometric_form.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal {
@@ -146,6 +147,39 @@ Rule<double> energyRule(const FieldProblem& problem) {
     return lobatto<double>(problem.nodes.degree + 1);
 }
 
+/// Of values at equal distances around a circle, whatever the functions between them are.
+Measure fieldTailMeasure(const Shared& problem) {
+    return {"spectrum-tail", {{"spectrum_tail", "", "tail", ""}}, -1, [problem](const State&) {
+                return [form = TrigonometricForm(problem)](double, const double* x, double* values) {
+                    values[0] = form.tail(x);
+                };
+            }};
+}
+
+/// What differs where the values stand for a trigonometric polynomial.
+void useTrigonometricForm(System& s, const Shared& problem) {
+    const auto form = std::make_shared<const TrigonometricForm>(problem);
+    s.energy = [form](double, const double* x) { return form->energy(x); };
+    s.error.ofFunction = [form](double t, const double* x, const ExactSolution& u) {
+        return form->distance(t, x, u);
+    };
+    s.at = [form](const double* x, std::span<const double> places, double* values) {
+        form->evaluateAt(x, places, values);
+    };
+    s.measures.push_back({"translation-momentum", translationColumns(), 1, [form](const State& initial) {
+                              const double start = form->momentum(initial.x.data());
+                              return [form, start](double, const double* x, double* values) {
+                                  values[0] = form->momentum(x);
+                                  values[1] = values[0] - start;
+                              };
+                          }});
+    s.start = [problem, given = s.start](const Settings& initial, double t) {
+        std::vector<double> x = given(initial, t);
+        TrigonometricForm::withoutAlternation(x);
+        return x;
+    };
+}
+
 /// The smallest element: the same at all times.
 Measure smallestElementMeasure(const Shared& problem) {
     return {"h-min", {{"h_min", "", "min h", ""}}, -1, [least = problem->mesh.smallest()](const State&) {
@@ -237,7 +271,9 @@ System makeFieldSystem(Shared problem, double amplitude) {
         evaluateAt(*problem, x, places, values);
     };
     s.measures = {smallestElementMeasure(problem)};
-    if (!problem->coefficient) s.measures.push_back(translationMeasure(problem));
+    if (!problem->coefficient && !problem->isTrigonometric) s.measures.push_back(translationMeasure(problem));
+    if (problem->mesh.isPeriodic() && problem->mesh.isUniform() && problem->nodes.degree <= 2)
+        s.measures.push_back(fieldTailMeasure(problem));
     if (problem->potential.kind() == FieldPotential::Kind::none &&
         problem->mesh.boundary != Boundary::dirichlet)
         s.momenta = {fieldMomentum(problem)};
@@ -259,6 +295,7 @@ System makeFieldSystem(Shared problem, double amplitude) {
     s.draw = [problem, unit](const double* values, Drawing& drawing) {
         drawField(*problem, problem->nodes.x, unit, values, drawing);
     };
+    if (problem->isTrigonometric) useTrigonometricForm(s, problem);
     return s;
 }
 

@@ -18,6 +18,9 @@ inline constexpr const char* elementDegreeKey = "element_degree";
 inline constexpr const char* elementFunctionsKey = "element_functions";
 inline constexpr const char* elementPartsKey = "element_parts";
 
+/// Another one: the elements are the equal distances between the nodes of a trigonometric polynomial.
+inline constexpr const char* trigonometricKey = "trigonometric";
+
 /// Another one: the number of nodes between the ends, where they move.
 inline constexpr const char* movingNodesKey = "moving_nodes";
 

@@ -2,9 +2,13 @@
 #include "engine/model/field/potential.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/lanes_trigonometry.hpp"
 #include "engine/model/typed/typed_function.hpp"
 
 namespace extremal {
@@ -20,6 +24,22 @@ void fill(const double* u, std::size_t n, double* W, double* slope, double* curv
         for (std::size_t i = 0; i < n; ++i) slope[i] = first(u[i]);
     if (curvature)
         for (std::size_t i = 0; i < n; ++i) curvature[i] = second(u[i]);
+}
+
+/// sin of n values, eight together; the last ones among zeros, so that each value has the same sine
+/// everywhere.
+inline void sineLanes(const double* u, std::size_t n, double* slope) {
+    std::size_t i = 0;
+    for (; i + Lanes::size <= n; i += Lanes::size) sin(Lanes::load(u + i)).store(slope + i);
+    Lanes rest;
+    for (std::size_t k = 0; i + k < n; ++k) rest.lane[k] = u[i + k];
+    rest = sin(rest);
+    for (std::size_t k = 0; i + k < n; ++k) slope[i + k] = rest.lane[k];
+}
+
+void sines(const double* u, std::size_t n, double* slope) {
+    static const auto call = ForThisMachine<&sineLanes>::call();
+    call(u, n, slope);
 }
 
 }  // namespace
@@ -55,13 +75,14 @@ void FieldPotential::evaluate(const double* u, std::size_t n, double* W, double*
                 [m2](double x) { return m2 * x; }, [m2](double) { return m2; });
         case Kind::sineGordon:
             // 1 - cos u without cancellation.
+            if (slope) sines(u, n, slope);
             return fill(
-                u, n, W, slope, curvature,
+                u, n, W, nullptr, curvature,
                 [](double x) {
                     const double half = std::sin(x / 2);
                     return 2 * half * half;
                 },
-                [](double x) { return std::sin(x); }, [](double x) { return std::cos(x); });
+                [](double) { return 0.0; }, [](double x) { return std::cos(x); });
         case Kind::phi4:
             return fill(
                 u, n, W, slope, curvature, [](double x) { return (x * x - 1) * (x * x - 1) / 4; },
@@ -82,6 +103,41 @@ double FieldPotential::operator()(double u) const {
     double value = 0;
     evaluate(&u, 1, &value, nullptr, nullptr);
     return value;
+}
+
+int FieldPotential::degree() const {
+    if (isLinear()) return 2;
+    if (kind_ == Kind::phi4) return 4;
+    if (kind_ == Kind::sineGordon) return 0;
+    constexpr int most = 12;
+    constexpr std::size_t places = 2 * most + 2;
+    std::array<double, places> u{}, W{};
+    for (std::size_t i = 0; i < places; ++i)
+        u[i] = 2 * std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / places);
+    evaluate(u.data(), places, W.data(), nullptr, nullptr);
+    double size = 0;
+    for (const double each : W) size = std::max(size, std::abs(each));
+    if (!std::isfinite(size)) return 0;
+    // Coefficients of Chebyshev's polynomials T_k(u/2): those above the degree are round-off.
+    int degree = 0;
+    for (std::size_t k = 1; k < places; ++k) {
+        double sum = 0;
+        for (std::size_t i = 0; i < places; ++i)
+            sum += W[i] * std::cos(std::numbers::pi * static_cast<double>(k) *
+                                   (static_cast<double>(i) + 0.5) / places);
+        if (std::abs(2 * sum / places) > 1e-13 * size) degree = static_cast<int>(k);
+    }
+    return degree > most ? 0 : std::max(degree, 1);
+}
+
+double FieldPotential::meanCurvature() const {
+    constexpr std::size_t places = 64;
+    std::array<double, places> u{}, curvature{};
+    for (std::size_t i = 0; i < places; ++i) u[i] = (2 * static_cast<double>(i) + 1) / places - 1;
+    evaluate(u.data(), places, nullptr, nullptr, curvature.data());
+    double sum = 0;
+    for (const double each : curvature) sum += each;
+    return std::isfinite(sum) && sum > 0 ? sum / places : 0;
 }
 
 double FieldPotential::largestCurvature(double low, double high) const {

@@ -35,6 +35,11 @@ public:
     void evaluate(const double* u, std::size_t n, double* W, double* slope, double* curvature) const;
     /// W at one value.
     double operator()(double u) const;
+    /// The degree of W where it is a polynomial of degree 12 at most: of a typed one where
+    /// Chebyshev's coefficients of its values on |u| < 2 end there, to 1e-13. 0: it is no such polynomial.
+    int degree() const;
+    /// The mean of W'' over |u| <= 1, by 64 places; 0 where it is not positive and finite.
+    double meanCurvature() const;
     /// Largest W'' from `low` to `high`, seen at 400 places.
     double largestCurvature(double low, double high) const;
 

@@ -30,6 +30,8 @@ struct FieldProblem {
     /// The nodes are unknowns: x = (y, y', X, X') of all of them, y' along the path of the node, and `mesh`
     /// says where they are before a scheme places them (moving_field.hpp).
     bool hasMovingNodes = false;
+    /// u is the trigonometric polynomial through its values (trigonometric_form.hpp).
+    bool isTrigonometric = false;
     bool isBody = false;  ///< u displaces the points of a body: elements have a strain of their own
 
     int size() const { return nodes.size(); }

@@ -92,6 +92,7 @@ System makeField(const Settings& settings) {
                     boundaryNamed(settings.text("boundary")));
     // Schemes with higher elements ask for their own nodes.
     problem->nodes = FieldNodes(problem->mesh, std::max(1, settings.integer(elementDegreeKey)));
+    problem->isTrigonometric = settings.flag(trigonometricKey);
     const double c = settings.number("wave_speed");
     problem->elastic.k = c * c;
     problem->coefficient = mediumOf(settings);

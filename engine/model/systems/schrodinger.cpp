@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The Schroedinger equation i hbar psi_t = -hbar^2/(2m) psi_xx + V(x, t) psi on a periodic domain, or
-/// with psi = 0 at both ends (Dirichlet; V(x) then). hbar and m are free; nothing else has a unit.
+/// with psi = 0 at both ends (Dirichlet; V(x) then); with an interaction g |psi|^2 psi on periodic domains.
+/// hbar and m are free; nothing else has a unit.
 #include <memory>
 #include <string>
 #include <utility>
@@ -34,6 +35,11 @@ std::shared_ptr<const Hamiltonian> hamiltonianOf(const Settings& settings) {
     if ((isDirichlet || isConvolution) && V.isTimeDependent())
         throw InvalidScene("/potential", "depends on t, which is not possible where " + whole,
                            "a potential in x, or " + instead);
+    if (settings.number("interaction") != 0 && (isDirichlet || isConvolution || V.isTimeDependent()))
+        throw InvalidScene("/interaction",
+                           "needs a periodic domain, the product at the nodes, and a potential that does not "
+                           "depend on t",
+                           "0, or the boundary periodic with the product nodes");
     return std::make_shared<const Hamiltonian>(grid, settings.number("hbar"), settings.number("m"),
                                                std::move(V),
                                                isDirichlet     ? WaveBasis::dirichlet
@@ -46,6 +52,7 @@ std::vector<FieldInfo> parameters() {
     all.push_back(jsonField("potential", "potential", "V", "free",
                             "An expression in x, t, hbar and m, or a name: free, harmonic, lattice, "
                             "double-well, barrier, morse, random."));
+    all.push_back(interactionField());
     all.push_back(domainField("domain", "domain", "Ends of the interval."));
     all.push_back(
         choiceField("boundary", "boundary", {"periodic", "dirichlet"},

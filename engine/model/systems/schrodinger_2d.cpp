@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The Schroedinger equation i hbar psi_t = -hbar^2/(2m) (psi_xx + psi_yy) + V(x, y, t) psi on a rectangle,
-/// periodic in both directions. hbar and m are free; nothing else has a unit.
+/// periodic in both directions; with an interaction g |psi|^2 psi and, in a rotating frame, -Omega L_z psi,
+/// where V does not depend on t. hbar and m are free; nothing else has a unit.
 #include <memory>
 #include <string>
 #include <utility>
@@ -23,6 +24,10 @@ std::shared_ptr<const Hamiltonian> planeHamiltonian(const Settings& settings) {
                            "512 x 512 and less");
     wave::Potential V =
         wave::makePotential(*settings.find("potential"), "/potential", grid, constantsOf(settings));
+    for (const char* key : {"interaction", "rotation"})
+        if (settings.number(key) != 0 && V.isTimeDependent())
+            throw InvalidScene("/" + std::string(key), "needs a potential that does not depend on t",
+                               "0, or a potential in x and y");
     return std::make_shared<const Hamiltonian>(grid, settings.number("hbar"), settings.number("m"),
                                                std::move(V));
 }
@@ -32,6 +37,12 @@ std::vector<FieldInfo> planeParameters() {
     all.push_back(jsonField("potential", "potential", "V", "free",
                             "An expression in x, y, t, hbar and m, or a name: free, harmonic, lattice, "
                             "barrier, double-slit, random."));
+    all.push_back(interactionField());
+    FieldInfo rotation = numberField(
+        "rotation", "rotation", "", 0,
+        "Angular velocity Omega of the frame about the middle of the rectangle: - Omega L_z in H.");
+    rotation.symbol = "Ω";
+    all.push_back(rotation);
     all.push_back(domainField("domain", "domain in x", "Ends of the rectangle in x."));
     all.push_back(domainField("domain_y", "domain in y", "Ends of the rectangle in y."));
     all.push_back(

@@ -5,7 +5,9 @@
 #include <complex>
 
 #include "engine/model/wave/hamiltonian.hpp"
+#include "engine/model/wave/rotation.hpp"
 #include "engine/model/wave/spectrum.hpp"
+#include "engine/model/wave/vortices.hpp"
 
 namespace extremal {
 namespace {
@@ -14,7 +16,7 @@ using Shared = std::shared_ptr<const Hamiltonian>;
 
 Measure normMeasure(const Shared& h) {
     return {"norm",
-            {{"norm", "", "‖ψ‖", ""}, {"norm_error", "", "‖ψ‖ - ‖ψ(0)‖", ""}},
+            {{"norm", "", "‖ψ‖", ""}, {"norm_error", "", "‖ψ‖ − ‖ψ(0)‖", ""}},
             1,
             [n = h->size()](const State& initial) {
                 const double start = std::sqrt(squaredNorm(coefficients(initial.x.data()), n));
@@ -72,10 +74,77 @@ Measure tailMeasure(const Shared& h) {
             }};
 }
 
+Measure widthMeasure(const Shared& h) {
+    Measure m{"width", {{"x_square", "", "⟨x²⟩", ""}}, -1, {}};
+    if (h->dimension() == 2) m.columns.push_back({"y_square", "", "⟨y²⟩", ""});
+    m.bind = [h](const State&) {
+        return [h, work = std::vector<Complex>(static_cast<std::size_t>(h->size()))](double, const double* x,
+                                                                                     double* values) mutable {
+            const MeanSquares squares = meanSquares(*h, coefficients(x), work.data());
+            values[0] = squares.x;
+            if (h->dimension() == 2) values[1] = squares.y;
+        };
+    };
+    return m;
+}
+
+Measure angularMomentumMeasure(const Shared& h) {
+    return {"angular-momentum", {{"angular_momentum", "", "⟨L⟩", ""}}, -1, [h](const State&) {
+                return [L = AngularMomentum(h)](double, const double* x, double* values) mutable {
+                    values[0] = L.mean(coefficients(x));
+                };
+            }};
+}
+
+Measure vorticesMeasure(const Shared& h) {
+    return {"vortices",
+            {{"vortices", "", "vortices", ""}, {"antivortices", "", "antivortices", ""}},
+            -1,
+            [h](const State&) {
+                return [h, psi = std::vector<Complex>(static_cast<std::size_t>(h->size()))](
+                           double, const double* x, double* values) mutable {
+                    h->toNodes(coefficients(x), psi.data());
+                    const VortexCount count = countVortices(h->grid(), psi.data());
+                    values[0] = count.positive;
+                    values[1] = count.negative;
+                };
+            }};
+}
+
 }  // namespace
 
 std::vector<Measure> waveMeasures(const Shared& h) {
-    return {normMeasure(h), momentumMeasure(h), positionMeasure(h), currentMeasure(h), tailMeasure(h)};
+    std::vector<Measure> all{normMeasure(h), momentumMeasure(h), positionMeasure(h), currentMeasure(h),
+                             tailMeasure(h)};
+    if (h->isPeriodic()) all.push_back(widthMeasure(h));
+    if (h->dimension() == 2) {
+        all.push_back(angularMomentumMeasure(h));
+        all.push_back(vorticesMeasure(h));
+    }
+    return all;
+}
+
+MeanSquares meanSquares(const Hamiltonian& h, const Complex* c, Complex* work) {
+    h.toNodes(c, work);
+    const std::size_t nx = h.x().size();
+    const double x0 = h.grid().x.left + h.grid().x.length / 2, y0 = h.grid().y.left + h.grid().y.length / 2;
+    double all = 0;
+    MeanSquares squares;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(h.size()); ++j) {
+        const double weight = std::norm(work[j]), x = h.x()[j % nx] - x0, y = h.y()[j / nx] - y0;
+        all += weight;
+        squares.x += weight * x * x;
+        squares.y += weight * y * y;
+    }
+    squares.x /= all;
+    squares.y = h.dimension() == 2 ? squares.y / all : 0;
+    return squares;
+}
+
+double meanSquareRadius(const Hamiltonian& h, const Complex* c) {
+    std::vector<Complex> work(static_cast<std::size_t>(h.size()));
+    const MeanSquares squares = meanSquares(h, c, work.data());
+    return squares.x + squares.y;
 }
 
 ErrorMeasure wavePhaseError(int size) {

@@ -7,6 +7,8 @@
 ///     barrier
 ///                     there in a unit of time. The sign is that of d/dt |psi|^2 + d/dx j = 0; the printed
 ///                     one is opposite (Leok 2004, sec. 8.2);
+///     width           <x^2>, on a rectangle <y^2> as well, from the middle of a periodic domain;
+///     angular-momentum, vortices    of a rectangle (rotation.hpp, vortices.hpp);
 ///     spectrum-tail   the share of the upper eighth of its modes: far above round-off, N is too small.
 #pragma once
 
@@ -14,10 +16,18 @@
 #include <vector>
 
 #include "engine/model/system.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal {
 
 std::vector<Measure> waveMeasures(const std::shared_ptr<const Hamiltonian>& h);
+
+/// <(x - x0)^2> and <(y - y0)^2>, per norm, from the middle (x0, y0) of a periodic domain.
+struct MeanSquares {
+    double x = 0, y = 0;
+};
+MeanSquares meanSquares(const Hamiltonian& h, const Complex* c, Complex* work);
+double meanSquareRadius(const Hamiltonian& h, const Complex* c);
 
 /// The phase by which psi is ahead of the reference, arg <psi_ref, psi>, in (-pi, pi].
 ErrorMeasure wavePhaseError(int size);

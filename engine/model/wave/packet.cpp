@@ -12,7 +12,9 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/wave/basis/eigen.hpp"
+#include "engine/model/wave/soliton.hpp"
 #include "engine/model/wave/stationary.hpp"
+#include "engine/model/wave/vortices.hpp"
 
 namespace extremal::wave {
 namespace {
@@ -100,7 +102,7 @@ std::vector<Complex> given(const Context& context, const Value& values) {
                     : "the number of nodes is /model/modes");
         for (std::size_t j = 0; j < n; ++j) {
             const double v =
-                numberOf(numbers->asArray()[j], place + "/" + std::to_string(j), context.constants);
+                numberIn(numbers->asArray()[j], place + "/" + std::to_string(j), context.constants);
             psi[j] += std::string_view(key) == "re" ? Complex(v, 0) : Complex(0, v);
         }
     }
@@ -245,6 +247,7 @@ std::vector<Complex> packet(const Context& context, const Value& psi, const std:
         return c;
     }
     if (name == "eigenstate") return eigenstate(context, psi);
+    if (name == "vortices") return fromNodes(context, vorticesOf(psi, context.pointer, h, context.constants));
     const std::vector<std::string> names = idsOf(packets());
     throw InvalidScene(context.pointer + "/packet", "unknown packet \"" + name + "\"",
                        suggestName(name, names));
@@ -284,30 +287,33 @@ std::vector<CatalogItem> packets() {
                         numberField("wave_number", "wave number", "", 0, "Of the phase, per unit of length.");
     FieldInfo kappa = positive("kappa", "concentration", "", 20, "Large for narrow packets.");
     const std::string psi = "a wave function";
-    return {{"gaussian",
-             "Gaussian packet",
-             "exp(-(x - centre)^2/(4 width^2) + i wave_number x).",
-             {centre, width, wave},
-             {},
-             psi},
-            {"periodic-gaussian",
-             "periodic Gaussian packet",
-             "exp(-kappa (1 - cos(x - centre)) + i wave_number x), on periodic domains.",
-             {kappa, centre, wave},
-             {},
-             psi},
-            {"eigenstate",
-             "eigenstate",
-             "Of a potential that does not depend on time.",
-             {integerField("n", "n", 0, 1e6, 0.0, "Number of the state, from 0.")},
-             {},
-             psi},
-            {"plane-wave",
-             "plane wave of a wave function",
-             "exp(i wave_number x), on periodic domains.",
-             {wave},
-             {},
-             psi}};
+    std::vector<CatalogItem> all{{"gaussian",
+                                  "Gaussian packet",
+                                  "exp(-(x - centre)^2/(4 width^2) + i wave_number x).",
+                                  {centre, width, wave},
+                                  {},
+                                  psi},
+                                 {"periodic-gaussian",
+                                  "periodic Gaussian packet",
+                                  "exp(-kappa (1 - cos(x - centre)) + i wave_number x), on periodic domains.",
+                                  {kappa, centre, wave},
+                                  {},
+                                  psi},
+                                 {"eigenstate",
+                                  "eigenstate",
+                                  "Of a potential that does not depend on time.",
+                                  {integerField("n", "n", 0, 1e6, 0.0, "Number of the state, from 0.")},
+                                  {},
+                                  psi},
+                                 {"plane-wave",
+                                  "plane wave of a wave function",
+                                  "exp(i wave_number x), on periodic domains.",
+                                  {wave},
+                                  {},
+                                  psi}};
+    all.push_back(vortexPacket());
+    for (CatalogItem& item : solitonPackets()) all.push_back(std::move(item));
+    return all;
 }
 
 std::vector<Complex> makePacket(const Value& psi, const std::string& pointer, bool isNormalised,

@@ -6,6 +6,7 @@
 ///     {"packet": "periodic-gaussian", kappa, centre, wave_number}   exp(-kappa (1 - cos(x - centre)) + i
 ///     wave_number x)
 ///     {"packet": "eigenstate", n}                     of a potential that does not depend on time
+///     {"packet": "vortices", positions, charges, ..}  on a rectangle (vortices.hpp)
 ///     {"packet": "plane-wave", wave_number}           exp(i wave_number x)
 ///     {"values": {"re": [..], "im": [..]}}            at the nodes
 /// On a periodic domain x - centre is taken to the nearest copy of the centre, and the periodic packet has

@@ -38,7 +38,7 @@ Function onInterval(const std::string& name, const Value& object, const std::str
     const auto read = [&](const std::vector<Parameter>& parameters) {
         return parametersOf(object, pointer, parameters, {"name"}, constants);
     };
-    const auto mass = numberOf(Value("m"), pointer, constants);
+    const auto mass = numberIn(Value("m"), pointer, constants);
     if (name == "free") {
         read({});
         return {[](double, double, double) { return 0.0; }, false};
@@ -99,12 +99,12 @@ Function onRectangle(const std::string& name, const Value& object, const std::st
     };
     if (name == "harmonic") {
         const Value* both = object.find("omega");
-        const double omega = both ? numberOf(*both, pointer + "/omega", constants) : 1;
+        const double omega = both ? numberIn(*both, pointer + "/omega", constants) : 1;
         const auto p = read({{"omega", 1, false, true},
                              {"omega_y", omega, false, true},
                              {"centre", middle},
                              {"centre_y", middleY}});
-        const double mass = numberOf(Value("m"), pointer, constants);
+        const double mass = numberIn(Value("m"), pointer, constants);
         return {[a = mass * p[0] * p[0] / 2, b = mass * p[1] * p[1] / 2, c = p[2], d = p[3]](
                     double x, double y, double) { return a * (x - c) * (x - c) + b * (y - d) * (y - d); },
                 false};

@@ -20,30 +20,7 @@ std::optional<double> lookUp(const Constants& constants, std::string_view name) 
     return {};
 }
 
-std::string namesOf(const Constants& constants, std::vector<std::string> names) {
-    for (const auto& [key, value] : constants) names.push_back(key);
-    return "it may use " + joinNames(names);
-}
-
 }  // namespace
-
-double numberOf(const Value& value, const std::string& pointer, const Constants& constants) {
-    double number = std::nan("");
-    if (value.isNumber()) {
-        number = value.asNumber();
-    } else if (value.isString()) {
-        try {
-            number = evaluate(parseExpression(value.asString()),
-                              [&](std::string_view name) { return lookUp(constants, name); });
-        } catch (const ExpressionError& e) {
-            throw invalidText(pointer, value.asString(), e, "the expression ", namesOf(constants, {"pi"}));
-        }
-    } else {
-        throw InvalidScene(pointer, "must be a number or an expression");
-    }
-    if (!std::isfinite(number)) throw InvalidScene(pointer, "must be finite, got " + formatNumber(number));
-    return number;
-}
 
 Function functionOf(const std::string& text, const std::string& pointer, const Constants& constants,
                     Variables variables) {
@@ -68,7 +45,7 @@ Function functionOf(const std::string& text, const std::string& pointer, const C
             throw InvalidScene(pointer, "depends on t: a start is a function of place alone");
         f.value(0.5, 0.5, 0.5);  // every name is looked up once
     } catch (const ExpressionError& e) {
-        throw invalidText(pointer, text, e, "the expression ", namesOf(constants, known));
+        throw invalidText(pointer, text, e, "the expression ", namesIn(constants, known));
     }
     return f;
 }
@@ -86,7 +63,7 @@ std::vector<double> parametersOf(const Value& object, const std::string& pointer
         const std::string place = pointer + "/" + p.key;
         const Value* given = object.find(p.key);
         if (!given && p.isRequired) throw InvalidScene(place, "is required", "it has " + joinNames(known));
-        values.push_back(given ? numberOf(*given, place, constants) : p.fallback);
+        values.push_back(given ? numberIn(*given, place, constants) : p.fallback);
         if (p.isPositive && !(values.back() > 0))
             throw InvalidScene(place, "must be a positive finite number, got " + formatNumber(values.back()));
     }

@@ -10,15 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/text/number_in.hpp"
 #include "engine/core/value.hpp"
 
 namespace extremal::wave {
 
-/// Names that expressions may use besides x, y, t and pi, with their values: hbar, m.
-using Constants = std::vector<std::pair<std::string, double>>;
-
-/// A finite number, literal or expression.
-double numberOf(const Value& value, const std::string& pointer, const Constants& constants);
+using extremal::Constants;
 
 /// A function of place and time: of x, of y too where there is one, and of t where that is allowed.
 struct Function {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
+#include "engine/model/plane_picture.hpp"
 #include "engine/model/wave/wave_system.hpp"
 
 namespace extremal {
@@ -44,30 +44,6 @@ void drawOnInterval(const Hamiltonian& h, const double* values, Drawing& drawing
     drawing.shapes.push_back(std::move(curtain));
 }
 
-/// A picture of at most this many points along a side, of all nodes and once more the first, which closes the
-/// domain.
-constexpr int mostPoints = 129;
-
-template <class At>
-Raster rasterOf(const wave::Grid& grid, At&& at) {
-    Raster raster;
-    raster.corner = {grid.x.left, grid.y.left, 0};
-    raster.width = grid.x.length;
-    raster.height = grid.y.length;
-    const auto pointsOf = [](int n) {
-        int points = n;
-        while (points + 1 > mostPoints && points % 2 == 0) points /= 2;
-        return points + 1;
-    };
-    raster.columns = pointsOf(grid.nx);
-    raster.rows = pointsOf(grid.ny);
-    const int everyX = grid.nx / (raster.columns - 1), everyY = grid.ny / (raster.rows - 1);
-    for (int j = 0; j < raster.rows; ++j)
-        for (int i = 0; i < raster.columns; ++i)
-            at(raster, static_cast<std::size_t>(i * everyX % grid.nx + j * everyY % grid.ny * grid.nx));
-    return raster;
-}
-
 /// |psi| as how strong a colour is, the phase as its hue, over the potential in grey: each as strong as it
 /// can be where it is largest.
 void drawOnRectangle(const Hamiltonian& h, const double* values, Drawing& drawing) {
@@ -84,17 +60,19 @@ void drawOnRectangle(const Hamiltonian& h, const double* values, Drawing& drawin
         ground.role = ShapeRole::scenery;
         drawing.shapes.push_back(std::move(ground));
     }
+    const auto density = [values, n](std::size_t j) {
+        return values[j] * values[j] + values[n + j] * values[n + j];
+    };
     double largest = 0;
-    for (std::size_t j = 0; j < n; ++j) largest = std::max(largest, std::hypot(values[j], values[n + j]));
+    for (std::size_t j = 0; j < n; ++j) largest = std::max(largest, density(j));
     const double unit = largest > 0 ? 1 / largest : 0;
     drawing.shapes.push_back(rasterOf(grid, [&](Raster& r, std::size_t j) {
-        r.strengths.push_back(unit * std::hypot(values[j], values[n + j]));
-        r.hues.push_back(std::atan2(values[n + j], values[j]) / (2 * std::numbers::pi));
+        r.strengths.push_back(std::sqrt(unit * density(j)));
+        // a hue needs no more than single precision
+        const float angle = std::atan2(static_cast<float>(values[n + j]), static_cast<float>(values[j]));
+        r.hues.push_back(static_cast<double>(angle) / (2 * std::numbers::pi));
     }));
-    const Point a = {grid.x.left, grid.y.left, 0}, c = {a[0] + grid.x.length, a[1] + grid.y.length, 0},
-                b = {c[0], a[1], 0}, d = {a[0], c[1], 0};
-    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, d}, std::pair{d, a}})
-        drawing.shapes.push_back(Segment{from, to, 1.2, ShapeRole::scenery});
+    addFrame(grid, drawing);
 }
 
 }  // namespace

@@ -10,8 +10,11 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/wave/basis/eigen.hpp"
+#include "engine/model/wave/collapse.hpp"
+#include "engine/model/wave/interaction.hpp"
 #include "engine/model/wave/measures.hpp"
 #include "engine/model/wave/packet.hpp"
+#include "engine/model/wave/soliton.hpp"
 #include "engine/model/wave/spectrum.hpp"
 #include "engine/model/wave/wave_parts.hpp"
 
@@ -76,6 +79,32 @@ double frequencyOf(const Hamiltonian& h, double t, const double* x) {
     return std::isfinite(width) ? 6 * width / h.hbar() : 0;
 }
 
+/// The state of a function at the nodes.
+std::vector<double> stateOf(const Hamiltonian& h, const wave::LineSolution& psi, double t) {
+    std::vector<Complex> values, c(static_cast<std::size_t>(h.size()));
+    for (const double x : h.x()) values.push_back(psi(x, t));
+    h.toCoefficients(values.data(), c.data());
+    const double* numbers = reinterpret_cast<const double*>(c.data());
+    return {numbers, numbers + 2 * c.size()};
+}
+
+void useCoupling(System& s, const Shared& h, Coupling coupling) {
+    if (coupling.g != 0) s.parts.set(Interaction{coupling.g});
+    if (coupling.omega != 0) s.parts.set(Rotation{coupling.omega});
+    s.energy = [h, coupling](double t, const double* x) {
+        return coupledEnergy(h, coupling, t, coefficients(x));
+    };
+    if (h->dimension() == 2 && coupling.g < 0) s.parts.set(collapseLimit(h, coupling));
+    s.exactFrom = [h, g = coupling.g](const Settings& initial, const State&) -> ExactSolution {
+        const auto soliton = wave::solitonOf(*initial.find("psi"), "/psi", *h, g);
+        if (!soliton || !wave::vanishesAtEnds(*soliton, *h)) return {};
+        return [h, psi = *soliton](double t, std::span<double> x) {
+            const std::vector<double> state = stateOf(*h, psi, t);
+            std::copy(state.begin(), state.end(), x.begin());
+        };
+    };
+}
+
 }  // namespace
 
 System makeWaveSystem(const Settings& settings, const std::function<Shared(const Settings&)>& make) {
@@ -83,8 +112,10 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
     s.id = settings.type;
     static MemoCache<Settings, Shared> recent(6);
     const Shared h = recent.get(settings, [&] { return make(settings); });
+    const auto numberAt = [&](const char* key) { return settings.find(key) ? settings.number(key) : 0; };
+    const Coupling coupling{numberAt("interaction"), numberAt("rotation")};
     s.parts.set(Wave{h});
-    addWaveParts(s, h);
+    if (!coupling.isThere()) addWaveParts(s, h);  // they are of linear equations
     s.isUnitary = true;
     s.linearTest = LinearTest::phases;
     s.measures = waveMeasures(h);
@@ -95,14 +126,18 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
     s.draw = [h](const double* values, Drawing& drawing) { drawWave(*h, values, drawing); };
     s.frequency = [h](double t, const double* x) { return frequencyOf(*h, t, x); };
     s.caution = [h](const double* x) { return resolutionCaution(*h, coefficients(x)); };
-    s.start = [h](const Settings& initial, double) {
+    s.start = [h, g = coupling.g](const Settings& initial, double t) {
+        const auto soliton = wave::solitonOf(*initial.find("psi"), "/psi", *h, g);
+        if (soliton) return stateOf(*h, *soliton, t);
         const std::vector<Complex> c =
             wave::makePacket(*initial.find("psi"), "/psi", initial.flag("normalise"), h,
                              {{"hbar", h->hbar()}, {"m", h->mass()}});
         const double* numbers = reinterpret_cast<const double*>(c.data());
         return std::vector<double>(numbers, numbers + 2 * c.size());
     };
-    if (!h->isTimeDependent() && h->size() <= Eigenstates::denseLimit)
+    if (coupling.isThere())
+        useCoupling(s, h, coupling);
+    else if (!h->isTimeDependent() && h->size() <= Eigenstates::denseLimit)
         s.exact = [h](const State& initial) { return exactWave(h, initial); };
     return s;
 }
@@ -137,6 +172,15 @@ FieldInfo domainField(const std::string& key, const std::string& title, const st
     domain.fallback = Value::Array{0.0, 2 * std::numbers::pi};
     domain.symbol = title;
     return domain;
+}
+
+FieldInfo interactionField() {
+    FieldInfo interaction = numberField(
+        "interaction", "coupling", "", 0,
+        "g of g |psi|^2 psi (nonlinear Schroedinger, Gross-Pitaevskii): repulsion where positive, "
+        "attraction where negative; periodic domains.");
+    interaction.symbol = "g";
+    return interaction;
 }
 
 std::vector<FieldInfo> waveStartFields(const std::string& places) {

@@ -28,6 +28,9 @@ wave::Domain domainOf(const Settings& settings, const std::string& key);
 int modesOf(const Settings& settings, const std::string& key, bool isEven);
 FieldInfo domainField(const std::string& key, const std::string& title, const std::string& description);
 
+/// The key interaction.
+FieldInfo interactionField();
+
 /// The keys psi and normalise; `places` are the names in expressions: "x", "x and y".
 std::vector<FieldInfo> waveStartFields(const std::string& places);
 

@@ -14,6 +14,12 @@ namespace extremal {
 
 namespace {
 
+/// FFTW's planner is not thread-safe, executing is.
+std::mutex& planner() {
+    static std::mutex mutex;
+    return mutex;
+}
+
 fftw_complex* raw(const Complex* v) {
     // FFTW takes its input without const; PRESERVE_INPUT keeps the promise.
     return reinterpret_cast<fftw_complex*>(const_cast<Complex*>(v));
@@ -82,11 +88,9 @@ struct Fourier::Plans {
     Plans(int nx, int ny, Planning planning)
         : forward(nx, ny, FFTW_FORWARD, planning), backward(nx, ny, FFTW_BACKWARD, planning) {}
 
-    /// The planner is not thread-safe, executing is.
     static std::shared_ptr<const Plans> of(int nx, int ny, Planning planning) {
-        static std::mutex mutex;
         static std::map<std::tuple<int, int, Planning>, std::shared_ptr<const Plans>> known;
-        const std::lock_guard lock(mutex);
+        const std::lock_guard lock(planner());
         auto& plans = known[{nx, ny, planning}];
         if (!plans) plans = std::make_shared<const Plans>(nx, ny, planning);
         return plans;
@@ -121,5 +125,37 @@ void Fourier::toCoefficients(const Complex* psi, Complex* c) const {
     rawToCoefficients(psi, c);
     scale(c, size(), std::sqrt(grid_.measure()) / size());
 }
+
+struct AxisTransforms::Plans {
+    fftw_plan nodesX, nodesY, numbersX, numbersY;
+
+    Plans(int nx, int ny) {
+        const std::lock_guard lock(planner());
+        std::vector<Complex> v(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+        const auto along = [&](bool isX, int sign) {
+            const int n = isX ? nx : ny, apart = isX ? 1 : nx, next = isX ? nx : 1;
+            return fftw_plan_many_dft(1, &n, isX ? ny : nx, raw(v.data()), nullptr, apart, next,
+                                      raw(v.data()), nullptr, apart, next, sign, FFTW_ESTIMATE);
+        };
+        nodesX = along(true, FFTW_BACKWARD);
+        nodesY = along(false, FFTW_BACKWARD);
+        numbersX = along(true, FFTW_FORWARD);
+        numbersY = along(false, FFTW_FORWARD);
+    }
+    ~Plans() {
+        const std::lock_guard lock(planner());
+        for (const fftw_plan plan : {nodesX, nodesY, numbersX, numbersY}) fftw_destroy_plan(plan);
+    }
+    Plans(const Plans&) = delete;
+    Plans& operator=(const Plans&) = delete;
+};
+
+AxisTransforms::AxisTransforms(const wave::Grid& grid)
+    : plans_(std::make_shared<const Plans>(grid.nx, grid.ny)) {}
+
+void AxisTransforms::toNodesAlongX(Complex* v) const { fftw_execute_dft(plans_->nodesX, raw(v), raw(v)); }
+void AxisTransforms::toNodesAlongY(Complex* v) const { fftw_execute_dft(plans_->nodesY, raw(v), raw(v)); }
+void AxisTransforms::toNumbersAlongX(Complex* v) const { fftw_execute_dft(plans_->numbersX, raw(v), raw(v)); }
+void AxisTransforms::toNumbersAlongY(Complex* v) const { fftw_execute_dft(plans_->numbersY, raw(v), raw(v)); }
 
 }  // namespace extremal

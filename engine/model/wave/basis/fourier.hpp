@@ -56,4 +56,18 @@ private:
     std::shared_ptr<const Plans> plans_;
 };
 
+/// Along one axis of a rectangle, in place and without factors: each direction and back are nx, or ny.
+class AxisTransforms {
+public:
+    explicit AxisTransforms(const wave::Grid& grid);
+    void toNodesAlongX(Complex* v) const;
+    void toNodesAlongY(Complex* v) const;
+    void toNumbersAlongX(Complex* v) const;
+    void toNumbersAlongY(Complex* v) const;
+
+private:
+    struct Plans;
+    std::shared_ptr<const Plans> plans_;
+};
+
 }  // namespace extremal

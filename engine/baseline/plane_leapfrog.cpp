@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/baseline/plane_leapfrog.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "engine/family/field_march.hpp"
+#include "engine/model/plane_field/problem.hpp"
+
+namespace extremal {
+namespace {
+
+class PlaneLeapfrog final : public FieldMarch {
+public:
+    PlaneLeapfrog(std::shared_ptr<const PlaneFieldProblem> problem, double step)
+        : FieldMarch(problem->size(), step),
+          problem_(std::move(problem)),
+          force_(n()),
+          of_(n()),
+          slope_(n()) {
+        const wave::Grid& grid = problem_->grid();
+        const double dx = grid.x.length / grid.nx, dy = grid.y.length / grid.ny;
+        perX_ = problem_->stiffness() / (dx * dx);
+        perY_ = problem_->stiffness() / (dy * dy);
+    }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<PlaneLeapfrog>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(isKnown_, of_, force_);
+        return FieldMarch::checkpoint(archive);
+    }
+
+private:
+    Outcome step(const double* x, double* next, StepReport& report) override {
+        const std::size_t size = n();
+        const double half = h() / 2;
+        if (!isKnown_ || std::memcmp(of_.data(), x, size * sizeof(double)) != 0) evaluate(x, report);
+        for (std::size_t i = 0; i < size; ++i) {
+            next[size + i] = x[size + i] + half * force_[i];
+            next[i] = x[i] + h() * next[size + i];
+        }
+        evaluate(next, report);
+        for (std::size_t i = 0; i < size; ++i) next[size + i] += half * force_[i];
+        return Outcome::converged;
+    }
+    void evaluate(const double* u, StepReport& report) {
+        problem_->potential().evaluate(u, n(), nullptr, slope_.data(), nullptr);
+        addDifferences(u, slope_.data(), force_.data());
+        std::copy_n(u, n(), of_.begin());
+        isKnown_ = true;
+        report.cost.evaluations += static_cast<long long>(n());
+    }
+    /// f = c^2 (D_x + D_y) u - slope.
+    void addDifferences(const double* u, const double* slope, double* f) const {
+        const auto nx = static_cast<std::size_t>(problem_->grid().nx),
+                   ny = static_cast<std::size_t>(problem_->grid().ny);
+        const double both = 2 * (perX_ + perY_);
+        for (std::size_t j = 0; j < ny; ++j) {
+            const double *const row = u + j * nx, *const below = u + (j == 0 ? ny - 1 : j - 1) * nx,
+                                *const above = u + (j + 1 == ny ? 0 : j + 1) * nx, *const s = slope + j * nx;
+            double* const to = f + j * nx;
+            const auto at = [&](std::size_t i, double left, double right) {
+                to[i] = perX_ * (left + right) + perY_ * (below[i] + above[i]) - both * row[i] - s[i];
+            };
+            at(0, row[nx - 1], row[1]);
+            for (std::size_t i = 1; i + 1 < nx; ++i) at(i, row[i - 1], row[i + 1]);
+            at(nx - 1, row[nx - 2], row[0]);
+        }
+    }
+
+    bool hasVariations() const override { return true; }
+    bool linearise() override {
+        std::vector<double> after(2 * n());
+        StepReport ignored;
+        if (step(before().data(), after.data(), ignored) != Outcome::converged) return false;
+        atStart_.resize(n());
+        atEnd_.resize(n());
+        problem_->potential().evaluate(before().data(), n(), nullptr, nullptr, atStart_.data());
+        problem_->potential().evaluate(after.data(), n(), nullptr, nullptr, atEnd_.data());
+        return true;
+    }
+    /// Momenta are dx dy v.
+    void vary(std::vector<double>& du, std::vector<double>& dp) override {
+        const double mass = problem_->grid().measure() / static_cast<double>(n());
+        const auto kick = [&](const std::vector<double>& curvature) {
+            std::vector<double> slope(n()), f(n());
+            for (std::size_t i = 0; i < n(); ++i) slope[i] = curvature[i] * du[i];
+            addDifferences(du.data(), slope.data(), f.data());
+            for (std::size_t i = 0; i < n(); ++i) dp[i] += h() / 2 * mass * f[i];
+        };
+        kick(atStart_);
+        for (std::size_t i = 0; i < n(); ++i) du[i] += h() * dp[i] / mass;
+        kick(atEnd_);
+    }
+
+    std::shared_ptr<const PlaneFieldProblem> problem_;
+    double perX_ = 0, perY_ = 0;  ///< c^2/dx^2, c^2/dy^2
+    bool isKnown_ = false;
+    std::vector<double> force_, of_, slope_;  ///< f, the values it belongs to, W'
+    std::vector<double> atStart_, atEnd_;     ///< W'' at the ends of the last step
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> makePlaneLeapfrog(const System& system, double step) {
+    return std::make_unique<PlaneLeapfrog>(system.part<PlaneField>().problem, step);
+}
+
+double planeLeapfrogLimit(const PlaneFieldProblem& problem, const double* u) {
+    const wave::Grid& grid = problem.grid();
+    const double dx = grid.x.length / grid.nx, dy = grid.y.length / grid.ny;
+    const auto [low, high] = std::minmax_element(u, u + problem.size());
+    const double curvature = std::max(0.0, problem.potential().largestCurvature(*low, *high));
+    return 2 / std::sqrt(4 * problem.stiffness() * (1 / (dx * dx) + 1 / (dy * dy)) + curvature);
+}
+
+}  // namespace extremal

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/family/wave/wave_interacting.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "engine/core/algebra/dense.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/lanes.hpp"
+#include "engine/model/wave/interaction.hpp"
+#include "engine/quadrature/collocation.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr std::size_t lanes = Lanes::size;
+
+/// out_i = a_i v + sum_j B_ij R_j, complex, for `rows` outputs. A row is its real parts, then its imaginary
+/// parts, `width` numbers each. `table`: in blocks of eight modes, of each output a and B, real part first.
+inline void combineLanes(const double* table, std::size_t rows, std::size_t stages, std::size_t width,
+                         const double* v, const double* R, double* out) {
+    for (std::size_t m = 0; m < width; m += lanes) {
+        const Lanes re = Lanes::load(v + m), im = Lanes::load(v + width + m);
+        for (std::size_t i = 0; i < rows; ++i) {
+            const Lanes p = Lanes::load(table), q = Lanes::load(table + lanes);
+            Lanes x = p * re - q * im, y = p * im + q * re;
+            table += 2 * lanes;
+            for (std::size_t j = 0; j < stages; ++j, table += 2 * lanes) {
+                const double* const row = R + 2 * j * width + m;
+                const Lanes a = Lanes::load(row), b = Lanes::load(row + width), s = Lanes::load(table),
+                            t = Lanes::load(table + lanes);
+                x += s * a - t * b;
+                y += s * b + t * a;
+            }
+            x.store(out + 2 * i * width + m);
+            y.store(out + (2 * i + 1) * width + m);
+        }
+    }
+}
+
+class InteractingWave final : public WaveStep {
+public:
+    InteractingWave(std::shared_ptr<const Hamiltonian> hamiltonian, Coupling coupling, double step,
+                    double shift, int degree, double tolerance, int maxIterations)
+        : WaveStep(std::move(hamiltonian), step, shift),
+          coupling_(coupling),
+          rule_(gauss<double>(degree)),
+          ahead_(extrapolationTable(rule_)),
+          tolerance_(tolerance > 0 ? tolerance : 1e-14),
+          maxIterations_(maxIterations > 0 ? maxIterations : 200),
+          stages_(static_cast<std::size_t>(degree)),
+          size_(static_cast<std::size_t>(n())),
+          width_((size_ + lanes - 1) / lanes * lanes) {
+        v_.resize(2 * width_);
+        for (auto* rows : {&R_, &last_, &Psi_}) rows->resize(2 * width_ * stages_);
+        nodes_.resize(size_ * stages_);
+        psi_.resize(size_);
+        modes_.resize(size_);
+        rest_.resize(size_);
+        if (coupling_.omega != 0) turn_.emplace(shared());
+    }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<InteractingWave>(*this); }
+    bool checkpoint(Archive& archive) override {
+        const bool isWhole = WaveStep::checkpoint(archive);
+        archive(hasLast_, R_);
+        return isWhole;
+    }
+
+private:
+    bool isLinear() const override { return false; }
+    double shiftFrom(const State& state) const override {
+        return chemicalPotential(shared(), coupling_, state.t, coefficients(state.x.data()));
+    }
+    void forget() override { hasLast_ = false; }
+
+    void prepare() override {
+        constexpr double mostOutside = 2;
+        const auto s = static_cast<Eigen::Index>(stages_);
+        const double unit = dt() / hamiltonian().hbar();
+        const auto& V = hamiltonian().potential();
+        const auto [low, high] = std::minmax_element(V.begin(), V.end());
+        const double most = std::max(std::abs(*low - shift()), std::abs(*high - shift())),
+                     inside = std::abs(unit) * most > mostOutside ? (*low + *high) / 2 - shift() : 0;
+        for (std::size_t j = 0; j < size_; ++j) rest_[j] = V[j] - shift() - inside;
+        const Eigen::MatrixXd A = collocationMatrix(rule_);
+        const Eigen::Map<const Eigen::RowVectorXd> b(rule_.b.data(), s);
+        stageTable_.assign(2 * width_ * stages_ * (stages_ + 1), 0);
+        endTable_.assign(2 * width_ * (stages_ + 1), 0);
+        Eigen::MatrixXcd right(s, s + 1), all(s, s + 1), end(1, s + 1);
+        right.col(0).setOnes();
+        right.rightCols(s) = Complex(0, -unit) * A.cast<Complex>();
+        for (std::size_t k = 0; k < size_; ++k) {
+            if (k % 512 == 0 && stop().stop_requested()) return;
+            const Complex y(0, unit * (hamiltonian().kinetic()[k] + inside));
+            const Eigen::MatrixXcd P = Eigen::MatrixXcd::Identity(s, s) + y * A.cast<Complex>();
+            all = dense::inverse<Complex>(P) * right;
+            end = -y * b.cast<Complex>() * all;
+            end(0, 0) += 1.0;
+            end.rightCols(s) += Complex(0, -unit) * b.cast<Complex>();
+            write(all, k, stageTable_);
+            write(end, k, endTable_);
+        }
+    }
+    void write(const Eigen::MatrixXcd& rows, std::size_t mode, std::vector<double>& table) const {
+        const std::size_t lane = mode % lanes;
+        double* at = table.data() + (mode - lane) * 2 * static_cast<std::size_t>(rows.size()) + lane;
+        for (Eigen::Index i = 0; i < rows.rows(); ++i)
+            for (Eigen::Index j = 0; j < rows.cols(); ++j, at += 2 * lanes) {
+                at[0] = rows(i, j).real();
+                at[lanes] = rows(i, j).imag();
+            }
+    }
+    /// R of the next step by the polynomial through that of the last one.
+    void guess() {
+        if (!hasLast_) {
+            std::fill(R_.begin(), R_.end(), 0.0);
+            return;
+        }
+        last_.swap(R_);
+        const std::size_t row = 2 * width_;
+        for (std::size_t i = 0; i < stages_; ++i) {
+            double* const to = R_.data() + i * row;
+            std::fill_n(to, row, 0.0);
+            for (std::size_t j = 0; j < stages_; ++j) {
+                const double weight = ahead_[i * stages_ + j], *from = last_.data() + j * row;
+                for (std::size_t m = 0; m < row; ++m) to[m] += weight * from[m];
+            }
+        }
+    }
+    void step(double, Complex* v, std::vector<double>&, StepReport& report) override {
+        static const auto combine = ForThisMachine<&combineLanes>::call();
+        constexpr double stagnation = 1e-11;
+        apart(v, v_.data());
+        double norm = 0;
+        for (const double each : v_) norm += each * each;
+        guess();
+        hasLast_ = false;
+        report.outcome = Outcome::diverged;
+        double last = 0;
+        for (int k = 0; k < maxIterations_; ++k) {
+            if (stop().stop_requested()) {
+                report.outcome = Outcome::stopped;
+                return;
+            }
+            ++report.cost.iterations;
+            combine(stageTable_.data(), stages_, stages_, width_, v_.data(), R_.data(), Psi_.data());
+            double squares = 0;
+            for (std::size_t i = 0; i < stages_; ++i) squares += evaluate(i);
+            report.cost.evaluations += static_cast<long long>(stages_);
+            const double change = std::sqrt(squares / (static_cast<double>(stages_) * norm));
+            report.residual = change;
+            if (!std::isfinite(change)) {
+                report.outcome = Outcome::notFinite;
+                return;
+            }
+            const bool stands = k > 1 && change >= last && change <= stagnation;
+            if ((k > 0 && change <= tolerance_) || stands) {
+                report.outcome = Outcome::converged;
+                break;
+            }
+            last = change;
+        }
+        if (report.outcome != Outcome::converged) return;
+        combine(endTable_.data(), 1, stages_, width_, v_.data(), R_.data(), Psi_.data());
+        together(Psi_.data(), v);
+        hasLast_ = true;
+    }
+    /// R of stage i from Psi; the square of the change of psi, in the measure of coefficients.
+    double evaluate(std::size_t i) {
+        together(Psi_.data() + 2 * i * width_, modes_.data());
+        hamiltonian().fourier().rawToNodes(modes_.data(), psi_.data());
+        const double scale = 1 / static_cast<double>(size_),
+                     density = coupling_.g / hamiltonian().grid().measure();
+        Complex* const before = nodes_.data() + i * size_;
+        double squares = 0;
+        for (std::size_t j = 0; j < size_; ++j) {
+            const double re = psi_[j].real(), im = psi_[j].imag(), a = re - before[j].real(),
+                         b = im - before[j].imag();
+            squares += a * a + b * b;
+            before[j] = psi_[j];
+            const double factor = scale * (rest_[j] + density * (re * re + im * im));
+            psi_[j] = {factor * re, factor * im};
+        }
+        if (turn_) turn_->add(modes_.data(), -coupling_.omega * scale, psi_.data());
+        hamiltonian().fourier().rawToCoefficients(psi_.data(), modes_.data());
+        apart(modes_.data(), R_.data() + 2 * i * width_);
+        return squares * scale;
+    }
+    void apart(const Complex* from, double* row) const {
+        for (std::size_t k = 0; k < size_; ++k) {
+            row[k] = from[k].real();
+            row[width_ + k] = from[k].imag();
+        }
+    }
+    void together(const double* row, Complex* to) const {
+        for (std::size_t k = 0; k < size_; ++k) to[k] = {row[k], row[width_ + k]};
+    }
+
+    Coupling coupling_;
+    std::optional<AngularMomentum> turn_;
+    Rule<double> rule_;
+    std::vector<double> ahead_;  ///< from R at the nodes of a step to those of the next
+    double tolerance_;
+    int maxIterations_;
+    std::size_t stages_, size_, width_;
+    bool hasLast_ = false;
+    std::vector<double> stageTable_, endTable_;
+    std::vector<double> v_, R_, last_, Psi_;
+    std::vector<double> rest_;  ///< V - Ec - w at the nodes
+    std::vector<Complex> nodes_, psi_, modes_;
+};
+
+}  // namespace
+
+std::unique_ptr<WaveStep> makeInteractingWave(std::shared_ptr<const Hamiltonian> hamiltonian,
+                                              Coupling coupling, double step, double shift, int degree,
+                                              double tolerance, int maxIterations) {
+    return std::make_unique<InteractingWave>(std::move(hamiltonian), coupling, step, shift, degree, tolerance,
+                                             maxIterations);
+}
+
+}  // namespace extremal

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A scalar field over a rectangle that is periodic in both directions, u_tt = c^2 (u_xx + u_yy) - W'(u):
+/// wave, Klein-Gordon, sine-Gordon, phi-4 equation, or a typed potential.
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/model/plane_field/plane_field_system.hpp"
+#include "engine/model/wave/wave_system.hpp"
+
+namespace extremal::systems {
+namespace {
+
+FieldInfo sideField(const char* key, const char* title, const char* along) {
+    FieldInfo f = numbers(key, title, "", {"left", "right"}, Value::Array{-10.0, 10.0},
+                          std::string("Ends of the rectangle along ") + along + ".");
+    f.symbol = title;
+    return f;
+}
+
+std::vector<FieldInfo> planeFieldParameters() {
+    FieldInfo across = integerField("cells_y", "N", 4, 4096, 64, "Number of nodes along y, even.");
+    across.title = "nodes in y";
+    return {
+        positive("wave_speed", "wave speed", "", 1, "c of u_tt = c² (u_xx + u_yy) - W'(u)."),
+        textField("potential", "W", Value("none"),
+                  "W(u): none, klein-gordon (mass² u²/2), sine-gordon (1 - cos u), phi4 ((u² - 1)²/4), or "
+                  "an expression in u and mass."),
+        notNegative("mass", "mass", "", 1, "m of the Klein-Gordon equation, and a name in W(u)."),
+        sideField("domain", "domain in x", "x"),
+        sideField("domain_y", "domain in y", "y"),
+        integerField("cells", "N", 4, 4096, 64, "Number of nodes along x, even."),
+        across};
+}
+
+System makePlaneField(const Settings& settings) {
+    const wave::Grid grid{domainOf(settings, "domain"), modesOf(settings, "cells", true),
+                          domainOf(settings, "domain_y"), modesOf(settings, "cells_y", true)};
+    if (grid.size() > wave::mostPlaces)
+        throw InvalidScene("/cells_y",
+                           "must make at most " + std::to_string(wave::mostPlaces) +
+                               " nodes with /cells, got " + std::to_string(grid.nx) + " x " +
+                               std::to_string(grid.ny),
+                           "512 x 512 and less");
+    FieldPotential potential(settings.text("potential"), settings.number("mass"), "/potential");
+    System s = makePlaneFieldSystem(
+        std::make_shared<const PlaneFieldProblem>(grid, settings.number("wave_speed"), std::move(potential)));
+    s.id = "field-2d";
+    return s;
+}
+
+}  // namespace
+
+ModelEntry field_2d() {
+    ModelEntry e;
+    e.item = {"field-2d",
+              "scalar field in 2-D",
+              "A field on a periodic rectangle: wave, Klein-Gordon, sine-Gordon, phi-4 or typed potential.",
+              planeFieldParameters(),
+              {},
+              ""};
+    e.initial = planeFieldStartFields();
+    e.exampleInitial = {{"u", "exp(-x^2 - y^2)"}};
+    e.exampleEnd = 10;
+    e.exampleStep = 0.1;
+    e.make = makePlaneField;
+    return e;
+}
+
+}  // namespace extremal::systems

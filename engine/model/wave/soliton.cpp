@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/model/wave/soliton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text/text.hpp"
+
+namespace extremal::wave {
+namespace {
+
+constexpr const char *single = "soliton", *pair = "two-soliton";
+
+/// A number among the keys of a packet.
+double keyOf(const Value& psi, const std::string& pointer, const char* key, double fallback) {
+    const Value* const value = psi.find(key);
+    if (!value) return fallback;
+    if (!value->isNumber() || !std::isfinite(value->asNumber()))
+        throw InvalidScene(pointer + "/" + key, "must be a finite number", formatNumber(fallback));
+    return value->asNumber();
+}
+
+/// (e^{k a} + e^{-k a}) / 2 times e^{-4 a}, for a >= 0 and k <= 4.
+double scaledCosh(double k, double a) { return (std::exp((k - 4) * a) + std::exp(-(k + 4) * a)) / 2; }
+
+}  // namespace
+
+std::vector<CatalogItem> solitonPackets() {
+    FieldInfo centre = numberField("centre", "centre", "", 0, "The middle of the domain by default.");
+    centre.fallback = nullptr;
+    const FieldInfo amplitude = positive("amplitude", "amplitude", "", 1, "A, which sets the width as well.");
+    const std::string psi = "a wave function with attraction";
+    return {{single,
+             "soliton",
+             "A sech(kappa (x - centre)) exp(i m velocity x/hbar), kappa = A sqrt(-g m)/hbar: it keeps its "
+             "shape. Not scaled.",
+             {amplitude, numberField("velocity", "velocity", "", 0, "Of the soliton."), centre},
+             {},
+             psi},
+            {pair,
+             "two solitons at rest",
+             "2 A sech(kappa (x - centre)): it narrows and widens again and again. Not scaled.",
+             {amplitude, centre},
+             {},
+             psi}};
+}
+
+bool vanishesAtEnds(const LineSolution& psi, const Hamiltonian& h) {
+    // At the start, from node to node: the smallest value is the one farthest from the centre.
+    double least = HUGE_VAL, most = 0;
+    for (const double x : h.x()) {
+        const double size = std::abs(psi(x, 0));
+        least = std::min(least, size);
+        most = std::max(most, size);
+    }
+    return least < 1e-9 * most;
+}
+
+std::optional<LineSolution> solitonOf(const Value& psi, const std::string& pointer, const Hamiltonian& h,
+                                      double g) {
+    const Value* const name = psi.find("packet");
+    if (!name || !name->isString()) return {};
+    const bool isSingle = name->asString() == single;
+    if (!isSingle && name->asString() != pair) return {};
+    const std::vector<double>& V = h.potential();
+    const bool isFree = std::all_of(V.begin(), V.end(), [](double each) { return each == 0; });
+    if (h.dimension() != 1)
+        throw InvalidScene(pointer + "/packet", name->asString() + " is for the line",
+                           "the model schrodinger, or re and im as expressions in x and y");
+    if (!(g < 0) || !isFree || h.isTimeDependent())
+        throw InvalidScene(
+            pointer + "/packet",
+            name->asString() + " needs attraction and no potential, and has the interaction " +
+                formatNumber(g, 4) + (isFree ? "" : " and a potential"),
+            "\"interaction\": -1 and \"potential\": \"free\" of the model, or a Gaussian packet");
+    for (const auto& [key, value] : psi.asObject())
+        if (key != "packet" && key != "amplitude" && key != "centre" && !(isSingle && key == "velocity"))
+            throw InvalidScene(pointer + "/" + key, "is not a key of the packet " + name->asString(),
+                               isSingle ? "amplitude, velocity and centre" : "amplitude and centre");
+    const double A = keyOf(psi, pointer, "amplitude", 1), v = keyOf(psi, pointer, "velocity", 0),
+                 centre = keyOf(psi, pointer, "centre", h.domain().left + h.domain().length / 2);
+    if (!(A > 0)) throw InvalidScene(pointer + "/amplitude", "must be positive", "1");
+    const double hbar = h.hbar(), m = h.mass(), kappa = A * std::sqrt(-g * m) / hbar;
+    const double length = h.domain().length;
+    if (isSingle)
+        return [=](double x, double t) {
+            const double rate = m * v * v / 2 - hbar * hbar * kappa * kappa / (2 * m),
+                         d = std::remainder(x - centre - v * t, length);
+            return std::polar(A / std::cosh(kappa * d), (m * v * (d + v * t) - rate * t) / hbar);
+        };
+    return [=](double x, double t) {
+        const double a = std::abs(kappa * std::remainder(x - centre, length)),
+                     tau = hbar * kappa * kappa * t / m;
+        const Complex top = scaledCosh(3, a) + 3 * scaledCosh(1, a) * std::polar(1.0, 4 * tau);
+        const double bottom =
+            scaledCosh(4, a) + 4 * scaledCosh(2, a) + 3 * std::exp(-4 * a) * std::cos(4 * tau);
+        return 4 * A * std::polar(1.0, tau / 2) * top / bottom;
+    };
+}
+
+}  // namespace extremal::wave
