@@ -36,6 +36,9 @@ public:
     }
 
     std::size_t tangentSize() const override { return isHamiltonian() ? size() : 0; }
+    std::string tangentProblem() const override {
+        return "only the flow of a Lagrangian or a Hamiltonian alone is varied";
+    }
     bool applyTangent(std::span<double> W) override {
         Stepper same;
         bool isKnown = true;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
+#include "engine/mechanism/driven_flow.hpp"
 
 namespace extremal {
 
@@ -15,7 +16,7 @@ AdaptiveMethod::AdaptiveMethod(const Mechanics<double>& m)
               return m.flow(m.model.get(), t, x, x + m.dimension, dx, dx + m.dimension);
           },
           static_cast<std::size_t>(2 * m.dimension)) {
-    jacobian_.emplace(m);
+    if (!isDriven(m)) jacobian_.emplace(m);
 }
 
 AdaptiveMethod::AdaptiveMethod(Rate rate, std::size_t n)

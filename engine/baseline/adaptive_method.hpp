@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/flow_jacobian.hpp"
+#include "engine/phase/flow_jacobian.hpp"
 
 namespace extremal {
 

@@ -8,7 +8,9 @@
 #include "engine/core/text/text.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/family/wave/wave.hpp"
-#include "engine/model/one_form.hpp"
+#include "engine/model/spins/spins.hpp"
+#include "engine/model/first_order/one_form.hpp"
+#include "engine/model/group/group_flow.hpp"
 
 namespace extremal {
 
@@ -57,10 +59,13 @@ bool canIntegrate(const BaselineEntry& entry, const System& system) {
 Claims claimsOf(const BaselineEntry& entry, const Settings& settings, const System* system) {
     if (const auto* const onSystem = entry.parts.find<ClaimsOnSystem>(); system && onSystem)
         return onSystem->of(*system);
-    const auto* const onForms = entry.parts.find<ClaimsOnOneForms>();
-    if (onForms && system && system->parts.find<OneForm>()) return onForms->of(settings);
+    const auto* const asEquations = entry.parts.find<ClaimsWithoutCoordinates>();
+    if (asEquations && system && (isFirstOrder(*system) || isOnGroup(*system)))
+        return asEquations->of(settings);
     const auto* const ofKeys = entry.parts.find<ClaimsOfKeys>();
-    return ofKeys ? ofKeys->of(settings) : entry.item.claims.value_or(Claims{});
+    Claims claims = ofKeys ? ofKeys->of(settings) : entry.item.claims.value_or(Claims{});
+    if (system) spins::claimLengths(*system, claims);
+    return claims;
 }
 
 std::vector<const BaselineEntry*> baselinesFor(const System& system) {

@@ -7,8 +7,8 @@
 #include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/parts.hpp"
+#include "engine/core/corrections.hpp"
 #include "engine/integrator/shared_force.hpp"
-#include "engine/solve/corrections.hpp"
 
 namespace extremal {
 namespace {

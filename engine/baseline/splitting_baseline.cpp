@@ -7,6 +7,8 @@
 #include "engine/baseline/wave_splitting.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/integrator/oscillator_step.hpp"
+#include "engine/model/phase_mechanics.hpp"
+#include "engine/model/wave/interaction.hpp"
 
 namespace extremal {
 
@@ -36,7 +38,7 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
               {},
               Claims{splitting.order, true, true, {"momentum", "norm"}},
               splitting.isNystrom ? "a separable Lagrangian" : ""};
-    e.takes = flowProblems().with<Wave>();
+    e.takes = flowProblems().with<Wave, Interaction, Rotation>();
     e.parts.set(SystemCondition{[isNystrom = splitting.isNystrom](const System& system) {
         return system.parts.find<Wave>() || !isNystrom || flowOf(system).isSeparable;
     }});

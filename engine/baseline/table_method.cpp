@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/baseline/table_method.hpp"
 
-#include <Eigen/LU>
-
 #include <limits>
 
 #include "engine/baseline/coordinate_watch.hpp"
-#include "engine/solve/corrections.hpp"
+#include "engine/core/algebra/lu.hpp"
+#include "engine/core/corrections.hpp"
 
 namespace extremal {
 namespace {

@@ -140,7 +140,7 @@ TypedTableau examined(Tableau table) {
     made.stabilityLimit =
         claims.isSymplectic
             ? firstEdge(OscillatorStep(made.tableau).intervals())
-            : firstInstability([&](double z) { return growth(t, z) <= 1 + noGrowth ? 0.0 : 2.0; });
+            : firstInstability([&](double z) { return growth(t, z) <= 1 + noGrowth; }).limit();
     return made;
 }
 

@@ -38,6 +38,14 @@ struct Properties {
     std::string remark;   ///< for the tooltip, in place of the order; may be empty
     std::string instability;    ///< why it is unstable for every step, where the oscillator does not show it
     double stabilityLimit = 0;  ///< largest step * frequency on the harmonic oscillator; infinity if none
+
+    // Compiled once.
+    Properties();
+    Properties(const Properties&);
+    Properties(Properties&&) noexcept;
+    Properties& operator=(const Properties&);
+    Properties& operator=(Properties&&) noexcept;
+    ~Properties();
 };
 
 }  // namespace extremal

@@ -53,7 +53,10 @@ OscillatorAction oscillatorAction(const Table<double>& t) {
             value.transpose() * t.weight.asDiagonal() * value};
 }
 
-double scannedStabilityLimit(const Table<double>& table) { return firstInstability(HalfTrace(table)); }
+double scannedStabilityLimit(const Table<double>& table) {
+    const HalfTrace halfTrace(table);
+    return firstInstability([&](double z) { return hasBoundedPowers(halfTrace(z), z); }).limit();
+}
 
 int OrderBounds::order() const { return std::min({ofSpace, ofRule, ofEquations}); }
 

@@ -94,38 +94,17 @@ private:
 };
 
 /// Titles for a sentence: "a force, a wall and a constraint".
-inline std::string joinTitles(const std::vector<const PartInfo*>& parts, std::string_view last) {
-    std::string text;
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        text += std::string(i == 0 ? "" : i + 1 < parts.size() ? ", " : last) + std::string(parts[i]->title);
-    return text;
-}
+std::string joinTitles(const std::vector<const PartInfo*>& parts, std::string_view last);
 
 /// The needs that are not taken: "a force and a constraint"; empty: all are taken.
-inline std::string untaken(const Takes& takes, const Parts& parts) {
-    std::vector<const PartInfo*> missed = parts.needs();
-    std::erase_if(missed, [&](const PartInfo* part) { return takes.contains(*part); });
-    return joinTitles(missed, " and ");
-}
+std::string untaken(const Takes& takes, const Parts& parts);
 
 /// Whether all needs are taken. Whoever takes certain parts needs one of them at least.
-inline bool isTaken(const Takes& takes, const Parts& parts) {
-    const std::vector<const PartInfo*> needs = parts.needs();
-    return takes.isEverything() ||
-           (!needs.empty() &&
-            std::all_of(needs.begin(), needs.end(), [&](const PartInfo* p) { return takes.contains(*p); }));
-}
+bool isTaken(const Takes& takes, const Parts& parts);
 
 /// What is needed in place of a problem that is not taken. Where a part of it is taken, it is the same
 /// without the others: "a problem without a force"; else what is taken: "a field or a wave function". Empty:
 /// it is taken.
-inline std::string neededInstead(const Takes& takes, const Parts& parts) {
-    if (isTaken(takes, parts)) return {};
-    const std::string missed = untaken(takes, parts);
-    const std::vector<const PartInfo*> needs = parts.needs();
-    const bool isPartly =
-        std::any_of(needs.begin(), needs.end(), [&](const PartInfo* p) { return takes.contains(*p); });
-    return isPartly ? "a problem without " + missed : joinTitles(takes.all(), " or ");
-}
+std::string neededInstead(const Takes& takes, const Parts& parts);
 
 }  // namespace extremal

@@ -6,6 +6,21 @@
 
 namespace extremal {
 
+System::System() = default;
+System::System(const System&) = default;
+System::System(System&&) noexcept = default;
+System& System::operator=(const System&) = default;
+System& System::operator=(System&&) noexcept = default;
+System::~System() = default;
+
+void forgetKnownMotion(System& system) {
+    system.exact = {};
+    system.exactFrom = {};
+    system.phaseError = {};
+    system.fast = {};
+    system.reduced.clear();
+}
+
 const Measure* measureOf(const System& system, std::string_view observable) {
     const auto found = std::find_if(system.measures.begin(), system.measures.end(),
                                     [&](const Measure& m) { return m.observable == observable; });

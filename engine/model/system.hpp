@@ -118,6 +118,7 @@ struct FieldSampling {
 class Hamiltonian;
 struct FieldProblem;
 struct MembraneProblem;
+class PlaneFieldProblem;
 struct EllipticProblem;
 struct StaticProblem;
 
@@ -142,6 +143,11 @@ struct Membrane {
     static constexpr PartInfo part{"membrane", "a membrane"};
     std::shared_ptr<const MembraneProblem> problem;
 };
+/// A field over a periodic rectangle (model/plane_field/problem.hpp).
+struct PlaneField {
+    static constexpr PartInfo part{"plane-field", "a field over a rectangle"};
+    std::shared_ptr<const PlaneFieldProblem> problem;
+};
 /// No motion, but an elliptic boundary-value problem along x (model/elliptic.hpp).
 struct EllipticPart {
     static constexpr PartInfo part{"elliptic", "the elliptic problem"};
@@ -154,7 +160,7 @@ struct StaticPart {
 };
 /// Problems of one of these parts alone, which need nothing besides.
 inline Takes plainProblems() {
-    return Takes::only<Mechanical, Body, Wave, ScalarField, Membrane, EllipticPart, StaticPart>();
+    return Takes::only<Mechanical, Body, Wave, ScalarField, Membrane, PlaneField, EllipticPart, StaticPart>();
 }
 
 /// What a system measures of its own states, for the observable of that id.
@@ -283,6 +289,14 @@ struct System {
     /// coordinates.
     std::vector<std::string> timePlots;
 
+    // Compiled once.
+    System();
+    System(const System&);
+    System(System&&) noexcept;
+    System& operator=(const System&);
+    System& operator=(System&&) noexcept;
+    ~System();
+
     int dimension() const { return static_cast<int>(coordinates.size()); }
     /// Whether the state is x = (q, p), one pair per coordinate; whatever moves it.
     bool hasCoordinates() const { return !coordinates.empty(); }
@@ -305,6 +319,10 @@ struct System {
     const std::shared_ptr<const Hamiltonian>& hamiltonian() const { return part<Wave>().hamiltonian; }
     const FieldProblem& fieldProblem() const { return *part<ScalarField>().problem; }
 };
+
+/// Drops what is known of the motion by itself, where something comes to move it besides: exact solutions,
+/// the error of the phase, the fast oscillation and reduced models.
+void forgetKnownMotion(System& system);
 
 /// The measure for an observable, or null.
 const Measure* measureOf(const System& system, std::string_view observable);

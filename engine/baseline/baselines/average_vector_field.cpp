@@ -6,7 +6,6 @@
 /// points integrate grad H along the chord exactly where H is a polynomial of degree at most 2n; elsewhere
 /// the energy error is that of the rule, O(h^(2n+1)) per step. Symmetric, of order 2, not symplectic;
 /// quadratic invariants other than H are not kept. Sources: Quispel and McLaren 2008; Celledoni et al. 2012.
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +13,12 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
-#include "engine/baseline/flow_jacobian.hpp"
 #include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/parts.hpp"
+#include "engine/core/algebra/lu.hpp"
+#include "engine/core/corrections.hpp"
+#include "engine/phase/flow_jacobian.hpp"
 #include "engine/quadrature/rule.hpp"
-#include "engine/solve/corrections.hpp"
 
 namespace extremal::baselines {
 namespace {

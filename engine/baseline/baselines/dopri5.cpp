@@ -6,6 +6,7 @@
 #include "engine/baseline/adaptive.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/mechanism/driven_flow.hpp"
+#include "engine/model/spins/spins.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal::baselines {
@@ -47,7 +48,7 @@ BaselineEntry dopri5() {
               "smooth forces"};
     e.grid = TimeGrid::landing;
     e.parts.set(BaselineTableau{dopri5Tableau});
-    e.takes = drivenProblems();
+    e.takes = drivenProblems().with<Spins>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Adaptive<Stepper>>(drivenMechanics(system), options);
     };

@@ -2,6 +2,7 @@
 /// Runge-Kutta-Fehlberg 7(8) of Boost.odeint.
 #include "engine/baseline/adaptive.hpp"
 #include "engine/mechanism/driven_flow.hpp"
+#include "engine/model/spins/spins.hpp"
 
 namespace extremal::baselines {
 
@@ -15,7 +16,7 @@ BaselineEntry fehlberg78() {
               Claims{8, false, false, {}},
               "smooth forces"};
     e.grid = TimeGrid::landing;
-    e.takes = drivenProblems();
+    e.takes = drivenProblems().with<Spins>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Adaptive<Stepper>>(drivenMechanics(system), options);
     };

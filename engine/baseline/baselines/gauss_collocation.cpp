@@ -21,6 +21,7 @@
 #include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/gauss_tableau.hpp"
 #include "engine/baseline/parts.hpp"
+#include "engine/model/spins/spins.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/solve/correction_size.hpp"
 
@@ -359,8 +360,8 @@ BaselineEntry gauss_collocation() {
     e.parts.set(ClaimsOfKeys{[](const Settings& settings) { return claims(settings.integer("stages")); }});
     e.parts.set(
         BaselineTableau{[](const Settings& settings) { return gaussTableau(settings.integer("stages")); }});
-    e.takes = firstOrderProblems();
-    e.parts.set(ClaimsOnOneForms{[](const Settings& settings) {
+    e.takes = firstOrderProblems().with<Spins, LieGroup, Spheres>();
+    e.parts.set(ClaimsWithoutCoordinates{[](const Settings& settings) {
         return Claims{2 * settings.integer("stages"), true, false, {}};
     }});
     e.make = [](const System& system, const BaselineOptions& options) {

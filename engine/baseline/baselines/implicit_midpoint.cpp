@@ -4,17 +4,18 @@
 ///
 /// Written on the Hamiltonian side, independently of the Galerkin step, whose discretization (degree 1,
 /// midpoint) it must equal to round-off.
-#include <Eigen/LU>
 
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
-#include "engine/baseline/flow_jacobian.hpp"
 #include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/gauss_tableau.hpp"
 #include "engine/baseline/parts.hpp"
-#include "engine/solve/corrections.hpp"
+#include "engine/core/algebra/lu.hpp"
+#include "engine/core/corrections.hpp"
+#include "engine/model/spins/spins.hpp"
+#include "engine/phase/flow_jacobian.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -112,7 +113,7 @@ BaselineEntry implicit_midpoint() {
               ""};
     e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
     e.parts.set(BaselineTableau{[](const Settings&) { return gaussTableau(1); }});
-    e.takes = flowProblems();
+    e.takes = flowProblems().with<Spins>();
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<ImplicitMidpoint>(flowOf(system), options.step);
     };

@@ -2,16 +2,33 @@
 /// Leapfrog. Of fields, u^{l+1} = 2 u^l - u^{l-1} + dt^2 (c^2 delta_x^2 u^l - W'(u^l)): explicit, stable for
 /// c dt <= dx. Of wave functions, psi^{l+1} = psi^{l-1} - (2 i dt/hbar) H psi^l: explicit, stable for |E| dt
 /// <= hbar. The three-level scheme of the trapezoidal rule, started with one step of Gauss degree 2; for
-/// fields a one-step method for u and u_t.
+/// fields, over an interval or a rectangle, a one-step method for u and u_t.
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/baseline/field_method.hpp"
+#include "engine/baseline/plane_leapfrog.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/step_limit.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
+#include "engine/model/plane_field/problem.hpp"
 
 namespace extremal::baselines {
+namespace {
+
+void checkPlaneStep(const PlaneFieldProblem& problem, const SchemeCase& scheme, Findings& findings) {
+    constexpr double slack = 1 + 1e-12;  // a step at the limit itself is stable
+    const double longest = planeLeapfrogLimit(problem, scheme.initial.x.data());
+    if (scheme.allowsUnstable || !(scheme.step > longest * slack)) return;
+    findings.error("/step",
+                   formatNumber(scheme.step) + " is beyond the stability limit " + formatNumber(longest, 4) +
+                       " of leapfrog on this mesh of " + std::to_string(problem.grid().nx) + " x " +
+                       std::to_string(problem.grid().ny) + " cells",
+                   "a smaller step, fewer cells, or \"allow_unstable\": true", "field-step");
+}
+
+}  // namespace
 
 BaselineEntry leapfrog() {
     BaselineEntry e;
@@ -19,14 +36,15 @@ BaselineEntry leapfrog() {
         "leapfrog",
         "leapfrog",
         "Explicit: wave functions in three levels, stable for |E| dt up to ħ; fields with the mass at the "
-        "nodes, stable for c dt up to dx.",
+        "nodes, stable for c dt up to dx, over rectangles up to dx dy/√(dx² + dy²).",
         {},
         Claims{2, true, true, {"bilinear form"}, false},
         "a wave function or a field"};
-    e.takes = Takes::only<Wave, ScalarField>();
+    e.takes = Takes::only<Wave, ScalarField, PlaneField>();
     e.parts.set(ClaimsOnSystem{[](const System& system) {
         if (system.parts.find<ScalarField>())
             return Claims{2, true, true, {"multisymplectic form", "momentum"}, true};
+        if (system.parts.find<PlaneField>()) return Claims{2, true, true, {"momentum"}, true};
         return Claims{2, true, true, {"bilinear form"}, false};
     }});
     e.parts.set(OrderInSpace{2});
@@ -34,10 +52,13 @@ BaselineEntry leapfrog() {
     e.parts.set(StepCheck{[](const SchemeCase& scheme, Findings& findings) {
         if (scheme.system.parts.find<ScalarField>())
             return checkFieldStep(*lumpedForm(scheme.system), 2, scheme, "leapfrog", findings);
+        if (const auto* const plane = scheme.system.parts.find<PlaneField>())
+            return checkPlaneStep(*plane->problem, scheme, findings);
         checkWaveLimit(1, waveFrequency(scheme.system, 0), scheme.step, scheme.allowsUnstable, findings);
     }});
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         if (system.parts.find<ScalarField>()) return makeExplicitField(lumpedForm(system), options.step);
+        if (system.parts.find<PlaneField>()) return makePlaneLeapfrog(system, options.step);
         if (system.hamiltonian()->isTimeDependent())
             throw InvalidScene("/baseline", "leapfrog needs a potential that does not depend on t", "strang");
         requirePeriodic(system, "/baseline", "leapfrog",

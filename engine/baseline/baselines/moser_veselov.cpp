@@ -13,15 +13,15 @@
 ///     s_5 = (e_1^2 / 30 - e_2 / 60) H^2 + (2 e_3 / 15 - e_1 e_2 / 30) H C + (e_2^2 / 30 - e_1 e_3 / 10) C^2,
 ///     d_5 = -(e_3 / 10 + e_1 e_2 / 60) H^2 + (2 e_1 e_3 / 15 - e_2^2 / 60) H C - e_2 e_3 C^2 / 60,
 /// found by matching the series of xi with that of the exact rotation in rational numbers.
-#include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
 
 #include "engine/baseline/body_method.hpp"
 #include "engine/baseline/parts.hpp"
+#include "engine/core/algebra/lu.hpp"
+#include "engine/core/corrections.hpp"
 #include "engine/family/parts/conditions.hpp"
-#include "engine/solve/corrections.hpp"
 
 namespace extremal::baselines {
 namespace {

@@ -6,6 +6,7 @@
 #include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/mechanism/driven_flow.hpp"
+#include "engine/model/spins/spins.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal::baselines {
@@ -100,7 +101,7 @@ BaselineEntry rk4() {
               ""};
     e.parts.set(OscillatorLimit(2.8284271247461903));  // |R(iz)| <= 1 up to 2 sqrt 2
     e.parts.set(BaselineTableau{rk4Tableau});
-    e.takes = drivenProblems();
+    e.takes = drivenProblems().with<Spins, LieGroup, Spheres>();
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<Rk4>(drivenMechanics(system), options.step);
     };

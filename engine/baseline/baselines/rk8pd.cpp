@@ -6,6 +6,7 @@
 #include <stop_token>
 
 #include "engine/baseline/adaptive_method.hpp"
+#include "engine/model/spins/spins.hpp"
 
 #if EXTREMAL_HAS_GSL
 #include <gsl/gsl_errno.h>
@@ -139,7 +140,7 @@ BaselineEntry rk8pd() {
               Claims{8, false, false, {}},
               "smooth forces"};
     e.grid = TimeGrid::landing;
-    e.takes = flowProblems();
+    e.takes = flowProblems().with<Spins>();
     e.make = []([[maybe_unused]] const System& system,
                 [[maybe_unused]] const BaselineOptions& options) -> std::unique_ptr<Integrator> {
 #if EXTREMAL_HAS_GSL

@@ -4,6 +4,7 @@
 #include "engine/baseline/parts.hpp"
 #include "engine/baseline/table_method.hpp"
 #include "engine/baseline/typed_tableau.hpp"
+#include "engine/model/spins/spins.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -44,7 +45,7 @@ BaselineEntry runge_kutta() {
     e.parts.set(BaselineTableau{[](const Settings& settings) { return typedRungeKutta(settings)->tableau; }});
     e.parts.set(
         KeyCheck{[](const Settings& settings, Findings& findings) { examine(settings, false, findings); }});
-    e.takes = flowProblems();
+    e.takes = flowProblems().with<Spins>();
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeTableMethod(flowOf(system), options.step, *typedRungeKutta(options.settings)->tableau);
     };

@@ -5,6 +5,7 @@
 #include "engine/baseline/typed_tableau.hpp"
 #include "engine/baseline/wave_splitting.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/model/wave/interaction.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -30,7 +31,7 @@ BaselineEntry splitting() {
                            "Which begins where there are as many of both; else those that are one more.")},
               Claims{},
               ""};
-    e.takes = flowProblems().with<Wave>();
+    e.takes = flowProblems().with<Wave, Interaction, Rotation>();
     e.parts.set(ClaimsOfKeys{[](const Settings& settings) {
         Claims claims = typedSplitting(settings)->claims;
         claims.conserves.emplace_back("norm");

@@ -91,9 +91,7 @@ Outcome ElementStep::newton(double t, double h, const std::stop_token& stop, Ste
             for (int i = 0; i < n - d; ++i) column[i] = H(d + i, d + j);
             for (int k = 0; k < d; ++k) column[n - d + k] = H(k, d + j) - H(n + k, d + j);
         }
-        const auto factors = lu_.factorise();
-        if (factors != SmallLu<double>::Result::regular)
-            return factors == SmallLu<double>::Result::singular ? Outcome::singular : Outcome::notFinite;
+        if (const Outcome factors = lu_.factorise(); factors != Outcome::converged) return factors;
         lu_.solve(residual_.data());
         report.cost.linearSolves += 2;
         ++report.cost.iterations;
@@ -171,7 +169,7 @@ bool ElementStep::applyTangent(double* W, int columns) {
         for (int k = 0; k < d; ++k) column[n - d + k] = j < n ? start(k, d + j) : c(k) - c(n + k);
         column[n] = j < n ? -c(d + j) : -derivatives_.byStepTwice;
     }
-    if (extended_.factorise() != SmallLu<double>::Result::regular) return false;
+    if (extended_.factorise() != Outcome::converged) return false;
     for (double* w = W; columns > 0; --columns, w += 2 * d + 2) {
         const Eigen::Map<const Vector> dq(w + 1, d);
         Eigen::Map<Vector> dp(w + d + 2, d);

@@ -212,7 +212,7 @@ Family multiscale() {
         auto tables = [system, d, first, made = oscillatoryTables(system, d, first)](double step) {
             return step == first ? made : oscillatoryTables(system, d, step);
         };
-        return makeCondensed(system, std::move(tables), first, policy);
+        return makeCondensed(system.mechanics(), std::move(tables), first, policy);
     };
     f.parts.set(SolverMethods{{"newton"}});  // fixed-point iteration diverges on fast oscillations
     f.parts.set(SchemeCondition{mismatchOf});

@@ -109,7 +109,7 @@ public:
     /// R(X; q_0, p_0) = 0 along a variation: the Jacobian at the solution is the one that convergence was
     /// seen with, and R depends on p_0 by p_0 dq(0)/dX, on q_0 by -q_0.
     bool applyTangent(std::span<double> W) override {
-        if (!isFactorised_ && lu_.factorise() != SmallLu<double>::Result::regular) return false;
+        if (!isFactorised_ && lu_.factorise() != Outcome::converged) return false;
         isFactorised_ = true;
         const std::size_t d = curves_.size();
         for (double* w = W.data(); w != W.data() + W.size(); w += 2 * d) {
@@ -205,14 +205,7 @@ private:
         for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
             if (stop().stop_requested()) return Outcome::stopped;
             if (!assemble(state, report)) return Outcome::notFinite;
-            switch (lu_.factorise()) {
-                case SmallLu<double>::Result::regular:
-                    break;
-                case SmallLu<double>::Result::singular:
-                    return Outcome::singular;
-                case SmallLu<double>::Result::notFinite:
-                    return Outcome::notFinite;
-            }
+            if (const Outcome factors = lu_.factorise(); factors != Outcome::converged) return factors;
             lu_.solve(residual_.data());
             ++report.cost.iterations;
             ++report.cost.linearSolves;

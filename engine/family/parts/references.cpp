@@ -5,6 +5,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/parameter_switching.hpp"
 #include "engine/family/parts/variant.hpp"
 #include "engine/integrator/at_switches.hpp"
 
@@ -14,8 +15,10 @@ ReferencePlan referenceBy(std::string description, const System& system, const D
     ReferencePlan plan;
     plan.description = std::move(description);
     plan.make = [system, scheme](double step) {
-        return landingOnSwitches(system, [scheme, step](const System& smooth) {
-            return makeIntegrator(smooth, scheme, {0, step});
+        return withSwitchedParameters(system, {}, [scheme, step](const System& present, const State&) {
+            return landingOnSwitches(present, [scheme, step](const System& smooth) {
+                return makeIntegrator(smooth, scheme, {0, step});
+            });
         });
     };
     return plan;
