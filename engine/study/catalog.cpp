@@ -25,7 +25,10 @@ const std::vector<CatalogItem>& studyCatalog() {
 }
 
 std::vector<StudyTable> tablesOf(const StudyEntry& study, const Sweep& sweep) {
-    return {{study.item.id, study.columns, study.rows(sweep)}};
+    std::vector<StudyTable> all{{study.item.id, study.columns, study.rows(sweep)}};
+    if (study.besides)
+        for (StudyTable& table : study.besides(sweep)) all.push_back(std::move(table));
+    return all;
 }
 
 StudyTable summaryOf(const StudyEntry& study, const Sweep& sweep) {

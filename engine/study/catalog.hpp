@@ -39,6 +39,8 @@ struct StudyEntry {
     std::vector<Value::Array> (*summary)(const Sweep&) = nullptr;
     /// The points of its rows; null where a row is more than one point.
     std::vector<const SweepRow*> (*summaryPoints)(const Sweep&) = nullptr;
+    /// What it finds besides its rows, in files of its own and on the terminal; null: nothing.
+    std::vector<StudyTable> (*besides)(const Sweep&) = nullptr;
 };
 
 const std::vector<StudyEntry>& studyEntries();

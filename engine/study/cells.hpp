@@ -13,6 +13,7 @@
 #include "engine/core/outcome.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/core/value.hpp"
+#include "engine/study/wish.hpp"
 
 namespace extremal {
 
@@ -74,6 +75,17 @@ Value arrayOf(const std::vector<Item>& items) {
 inline std::vector<std::string> textsOf(const Value& array) {
     std::vector<std::string> all;
     for (const Value& text : array.asArray()) all.push_back(text.asString());
+    return all;
+}
+inline Value valueOf(const std::vector<Wish>& wishes) {
+    Value::Array all;
+    for (const Wish& wish : wishes) all.push_back(Value::Array{wish.metric, wish.value});
+    return all;
+}
+inline std::vector<Wish> wishesOf(const Value& array) {
+    std::vector<Wish> all;
+    for (const Value& wish : array.asArray())
+        all.push_back({wish.asArray()[0].asString(), wish.asArray()[1].asNumber()});
     return all;
 }
 inline std::vector<double> numbersOf(const Value& array) {

@@ -68,6 +68,7 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
         if (option == "--candidates") isOwn = isOwn || entry.over == Over::wishes;
         if (option == "--search-time")
             isOwn = isOwn || entry.over == Over::wishes || entry.over == Over::usableSteps;
+        if (option == "--over" || option == "--of") isOwn = isOwn || entry.over == Over::wishes;
         if (option == "--x" || option == "--y") isOwn = isOwn || isChanged;
         if (isGiven && !isOwn)
             throw InvalidScene(std::string(option), "is not an option of " + entry.item.id,
@@ -78,6 +79,8 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
     refuse(!study.budget.empty(), Over::wantedError, "--budget", "cheapest");
     refuse(!study.candidates.empty(), Over::wantedError, "--candidates", "cheapest");
     refuse(!study.searchTime.empty(), Over::wantedError, "--search-time", "cheapest");
+    refuse(!study.over.empty(), Over::wantedError, "--over", "cheapest");
+    refuse(!study.of.empty(), Over::wantedError, "--of", "cheapest");
     refuse(!study.x.empty(), Over::numbers, "--x", "stability");
     refuse(!study.y.empty(), Over::numbers, "--y", "stability");
     refuse(study.findsLimits, Over::numbers, "--limit", "stability");
@@ -142,6 +145,7 @@ Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadd
     }
     options.hasAllCandidates = study.candidates == "all" || (isLadder && study.candidates.empty());
     if (!study.searchTime.empty()) options.searchSeconds = parseSeconds(study.searchTime, "--search-time");
+    options.over = parseCases(study.over, study.of);
     options.isAtEnd = study.isFinal;
     options.ladder = {study.steps, study.from, study.to, study.points};
     if (study.steps.empty() && (study.from != 0 || study.to != 0) && study.points == 0)

@@ -57,6 +57,7 @@ Sweep::Sweep(ResolvedScene scene, SweepOptions options)
         else
             addLadder(scheme);
     if (options_.hasAllCandidates) addSearched();
+    if (options_.over.isGiven()) caseScenes_ = scenesOf(scene_, options_.over);
     if (options_.rungs.empty()) return;
     searched_ = std::move(rows_);
     rows_.assign(options_.rungs.size(), SweepRow{searched_.front().point, {}});
@@ -85,6 +86,8 @@ void Sweep::checkOptions() const {
     for (const double rung : options_.rungs) requireUsable(rung, "--wish");
     if (options_.searchSeconds != 0) requireUsable(options_.searchSeconds, "--search-time");
     if (options_.budget != 0) requireUsable(options_.budget, "--budget");
+    if (options_.budget != 0 && options_.over.isGiven())
+        throw InvalidScene("--over", "does not go with --budget", "--wish or --error");
     if (options_.budget != 0 && options_.repeat == 0)
         throw InvalidScene("--budget", "is CPU time, which --repeat 0 does not measure", "--repeat 1");
 }
@@ -126,6 +129,17 @@ void Sweep::addLadder(std::size_t scheme) {
         }
         rows_.push_back({point, {}});
     }
+}
+
+const SweepRow& Sweep::answer(std::size_t rung) const {
+    const auto cost = [&](const PointResult& r) {
+        if (!r.isDone()) return HUGE_VAL;
+        return options_.repeat == 0 ? workOf(r, 1) : r.cpuSeconds;
+    };
+    const SweepRow* best = &rows_[rung];
+    for (std::size_t i = rung + 1; i < rows_.size(); ++i)
+        if (cost(rows_[i].result) < cost(best->result)) best = &rows_[i];
+    return rows_[rung].result.status == RunStatus::waiting ? rows_[rung] : *best;
 }
 
 bool Sweep::isComplete() const {
@@ -193,6 +207,7 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
     std::vector<Metric> metrics = metrics_;
     for (Metric& metric : metrics) metric = reference.sized(metric, scene_);
     confirmation_ = reference.confirmed(metrics.front());
+    cases_ = casesOf(stop);
     metricSize_ = metrics.front().size();
     if (isNeeded && onReference) onReference(reference_);
     if (stop.stop_requested()) return;
@@ -209,6 +224,7 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
         scene_, searched, std::move(metrics),
         [&](const StudyPoint& point) { return reference.of(scene_.schemes[point.scheme]); }, reference_,
         isCounted, seconds, stop);
+    search.judgeOver(cases_, options_.over.isMedian);
     if (isLadder) return climb(search, wanted, onPoint, stop);
     std::vector<double> values;
     for (const Wish& wish : wishes()) values.push_back(wish.value);
@@ -253,17 +269,39 @@ bool Sweep::isJudged(const PointResult& result) const {
 /// Only where the two methods part altogether: by a thousandth of the motion, as they do where it is chaotic.
 /// A smaller difference may be the error of the other method as well.
 std::string Sweep::unjudged(double wish) const {
-    constexpr double part = 1e-3;
     const bool isMissing =
         std::any_of(metrics_.begin(), metrics_.end(), [](const Metric& m) { return m.needsReference(); }) &&
         reference_.type == "none" && !reference_.problems.empty();
     if (isMissing) return "there is no reference: " + reference_.problems.front().message;
-    if (!confirmation_ || confirmation_.bound() <= std::max(wish, part * metricSize_)) return {};
-    const Scene& scene = scene_.scene;
+    if (cases_.empty()) return unjudgedIn(scene_, confirmation_, wish);
+    for (const SearchCase& each : cases_)
+        if (std::string why = unjudgedIn(*each.scene, each.confirmation, wish); !why.empty()) return why;
+    return {};
+}
+
+std::string Sweep::unjudgedIn(const ResolvedScene& resolved, const Confirmation& confirmation,
+                              double wish) const {
+    constexpr double part = 1e-3;
+    if (!confirmation || confirmation.bound() <= std::max(wish, part * metricSize_)) return {};
+    const Scene& scene = resolved.scene;
     return "an error of " + formatNumber(wish, 2) +
-           " can be judged to t = " + formatNumber(confirmation_.judgedTo(wish), 3) + " of " +
-           formatNumber(scene.end.value, 3) + ": there the reference and " + confirmation_.by + " part, by " +
-           formatNumber(confirmation_.bound(), 2) + " at the end";
+           " can be judged to t = " + formatNumber(confirmation.judgedTo(wish), 3) + " of " +
+           formatNumber(scene.end.value, 3) + ": there the reference and " + confirmation.by + " part, by " +
+           formatNumber(confirmation.bound(), 2) + " at the end";
+}
+
+std::vector<SearchCase> Sweep::casesOf(const std::stop_token& stop) const {
+    std::vector<SearchCase> cases;
+    for (const auto& scene : caseScenes_) {
+        if (stop.stop_requested()) break;
+        SearchCase each{scene, metrics_, {}, {}};
+        if (std::any_of(metrics_.begin(), metrics_.end(), [](const Metric& m) { return m.needsReference(); }))
+            each.reference = SearchReference(*scene, metrics_, stop);
+        for (Metric& metric : each.metrics) metric = each.reference.sized(metric, *scene);
+        each.confirmation = each.reference.confirmed(each.metrics.front());
+        cases.push_back(std::move(each));
+    }
+    return cases;
 }
 
 /// From the largest wish down: the runs for one are known to the next.

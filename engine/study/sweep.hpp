@@ -22,12 +22,12 @@
 #include "engine/study/search/ladder.hpp"
 #include "engine/study/search/metric.hpp"
 #include "engine/study/search/point.hpp"
+#include "engine/study/search/search_cases.hpp"
 #include "engine/study/wish.hpp"
 
 namespace extremal {
 
 class CandidateSearch;
-class SearchReference;
 struct SearchedScheme;
 
 struct SweepOptions {
@@ -46,6 +46,7 @@ struct SweepOptions {
     /// CPU for a run, and if isPerTime for a unit of its time.
     double budget = 0;
     bool isPerTime = false;
+    OverCases over = {};       ///< of a search: what has to be served besides the scene itself
     double searchSeconds = 0;  ///< of CPU; 0: 1 s where runs are timed, else no limit
     /// Of a ladder of wishes, from the largest down: one point for each, the cheapest of all schemes.
     std::vector<double> rungs = {};
@@ -94,6 +95,9 @@ public:
     /// Whether every point, of all shards, is known.
     bool isComplete() const;
 
+    /// Of a ladder of wishes: the cheapest answer to it that is known, which may be that to a smaller one.
+    const SweepRow& answer(std::size_t rung) const;
+
     /// A point that is known already.
     void take(std::size_t point, PointResult result) {
         if (!options_.rungs.empty()) rows_[point].point.scheme = result.scheme;
@@ -121,6 +125,8 @@ private:
                const std::function<void(std::size_t, const PointResult&)>& onPoint,
                const std::stop_token& stop);
     void checkOptions() const;
+    std::vector<SearchCase> casesOf(const std::stop_token& stop) const;
+    std::string unjudgedIn(const ResolvedScene& scene, const Confirmation& confirmation, double wish) const;
     std::vector<PointResult> spend(const std::vector<SearchedScheme>& schemes,
                                    const std::vector<Metric>& metrics, const std::vector<double>& wishes,
                                    const SearchReference& reference, double seconds,
@@ -136,6 +142,8 @@ private:
     std::vector<RefusedCandidate> refused_;
     std::vector<Metric> metrics_;
     Confirmation confirmation_;
+    std::vector<std::shared_ptr<const ResolvedScene>> caseScenes_;  ///< none: the scene alone
+    std::vector<SearchCase> cases_;
     double metricSize_ = std::numeric_limits<double>::infinity();  ///< of the first metric
     std::vector<SweepRow> rows_;
     std::vector<SweepRow> searched_;  ///< of a ladder of wishes: the schemes that it is climbed with

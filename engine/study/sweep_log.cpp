@@ -87,14 +87,14 @@ Value optionsValue(const SweepOptions& options) {
     value.set("repeat", options.repeat);
     value.set("only", arrayOf(options.only));
     value.set("error", options.wantedError);
-    Value::Array wishes;
-    for (const Wish& wish : options.wishes) wishes.push_back(Value::Array{wish.metric, wish.value});
-    value.set("wishes", wishes);
+    value.set("wishes", valueOf(options.wishes));
     value.set("all candidates", options.hasAllCandidates);
     value.set("search time", options.searchSeconds);
     value.set("budget", options.budget);
     value.set("per time", options.isPerTime);
     value.set("rungs", arrayOf(options.rungs));
+    value.set("over", textOf(options.over));
+    value.set("of", options.over.isMedian ? "median" : "");
     return value;
 }
 
@@ -109,13 +109,13 @@ SweepOptions optionsOf(const Value& value) {
     options.repeat = static_cast<int>(value.find("repeat")->asNumber());
     options.only = textsOf(*value.find("only"));
     options.wantedError = value.find("error")->asNumber();
-    for (const Value& wish : value.find("wishes")->asArray())
-        options.wishes.push_back({wish.asArray()[0].asString(), wish.asArray()[1].asNumber()});
+    options.wishes = wishesOf(*value.find("wishes"));
     options.hasAllCandidates = value.find("all candidates")->asBool();
     options.searchSeconds = value.find("search time")->asNumber();
     options.budget = value.find("budget")->asNumber();
     options.isPerTime = value.find("per time")->asBool();
     options.rungs = numbersOf(*value.find("rungs"));
+    options.over = parseCases(value.find("over")->asString(), value.find("of")->asString());
     return options;
 }
 

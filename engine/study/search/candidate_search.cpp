@@ -130,8 +130,7 @@ RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& sche
             std::min(job.limit, tooLong * job.predictedCost + (isCounted_ ? littleWork : fewSeconds));
         limit.seconds = std::min(limit.seconds, std::max(seconds_ - spent_, fewSeconds));
         Known made;
-        made.result =
-            runPoint(scene_, pointAt(own, scheme, job.n), metrics_, references_(own), 0, limit, stop_);
+        made.result = runCases(own, pointAt(own, scheme, job.n), 0, limit, wishes);
         const int nodes = richnessOf(schemeAt(scene_, own.scheme, made.result)).nodes;
         made.cost = isCounted_ ? workOf(made.result, nodes) : made.result.cpuSeconds;
         ++runs_;
@@ -146,6 +145,28 @@ RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& sche
         run.isAtFloor = run.isAtFloor || (value > wishes[i] && value <= floorOf(i));
     }
     return run;
+}
+
+/// A run on each case; `limit` is one of their mean.
+PointResult CandidateSearch::runCases(const StudyPoint& own, const StudyPoint& at, int repeat,
+                                      const CostLimit& limit, std::span<const double> wishes) {
+    if (cases_.empty()) return runPoint(scene_, at, metrics_, references_(own), repeat, limit, stop_);
+    const auto count = static_cast<double>(cases_.size());
+    CostLimit left{limit.seconds * count, limit.work * count};
+    std::vector<PointResult> results;
+    for (std::size_t i = 0; i < cases_.size() && !stop_.stop_requested(); ++i) {
+        const SearchCase& each = cases_[i];
+        const ResolvedScheme& scheme = each.scene->schemes[own.scheme];
+        results.push_back(
+            runPoint(*each.scene, at, each.metrics, each.reference.of(scheme), repeat, left, stop_));
+        left.seconds -= results.back().cpuSeconds;
+        left.work -= workOf(results.back(), richnessOf(scheme).nodes);
+        if (isMedian_ || repeat > 0 || !(excessOf(results.back(), wishes) > 0)) continue;
+        std::rotate(cases_.begin(), cases_.begin() + static_cast<std::ptrdiff_t>(i),
+                    cases_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        break;
+    }
+    return combined(results, isMedian_);
 }
 
 void CandidateSearch::drive(CandidateRace& race, const std::function<RaceRun(const RaceJob&)>& run) {
@@ -233,6 +254,7 @@ void CandidateSearch::nameFloor(std::size_t index, PointResult& result) const {
 std::string CandidateSearch::reasonOf(const CandidateRace& race, std::size_t index,
                                       const PointResult& nearest) const {
     const std::vector<RaceRun>& runs = race.runsOf(index);
+    if (!entries_[index] && runs.empty()) return "not tried: trials of others took half of the time";
     switch (race.endOf(index)) {
         case RaceEnd::reached:
             return "reached at single steps only: a finer one fails";
@@ -312,7 +334,7 @@ void CandidateSearch::timeOne(std::size_t index, PointResult& r, int repeat) {
     constexpr double longest = 0.1;
     const int times = static_cast<int>(std::min<double>(repeat, longest / std::max(r.cpuSeconds, 1e-9)));
     if (times > 0) {
-        const PointResult timed = runPoint(scene_, at, metrics_, references_(at), times, {}, stop_);
+        const PointResult timed = runCases(at, at, times, {}, {});
         r.cpuSeconds = timed.cpuSeconds;
         r.cpuSpread = timed.cpuSpread;
     }
@@ -332,13 +354,34 @@ void CandidateSearch::time(std::vector<PointResult>& results, int repeat) {
             timeOne(reached[place], results[reached[place]], repeat);
 }
 
+/// The scene's own, then what is cheap to try: codes without equations to solve, low degrees.
+std::vector<std::size_t> CandidateSearch::orderOfTrials() const {
+    std::vector<std::size_t> order(schemes_.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto rank = [&](std::size_t i) {
+        const ResolvedScheme& scheme = schemeOf(i);
+        if (schemes_[i].isOfScene) return -1;
+        return scheme.family ? 1 + std::max(scheme.claims.order, 0) : 0;
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+    return order;
+}
+
 CandidateRace CandidateSearch::raceFor(std::span<const double> wishes) {
-    std::vector<RaceEntry> entries;
-    for (std::size_t i = 0; i < schemes_.size() && !stop_.stop_requested(); ++i) {
+    // Half of the time belongs to the race.
+    constexpr double partOfTrials = 0.5;
+    for (const std::size_t i : orderOfTrials()) {
+        if (entries_[i] || stop_.stop_requested()) continue;
+        if (!schemes_[i].isOfScene && spent_ > partOfTrials * seconds_) break;
         const double begin = threadSeconds();
-        if (!entries_[i]) entries_[i] = entryFor(schemes_[i].point, schemeOf(i));
+        entries_[i] = entryFor(schemes_[i].point, schemeOf(i));
         spent_ += threadSeconds() - begin;
-        entries.push_back(*entries_[i]);
+    }
+    std::vector<RaceEntry> entries;
+    for (std::size_t i = 0; i < schemes_.size(); ++i) {
+        constexpr double unknownCost = 1e300;
+        entries.push_back(entries_[i] ? *entries_[i] : RaceEntry{.firstCost = unknownCost});
         entries.back().mostTimes = schemes_[i].isOfScene ? mostTimesTheLeast : 1;
     }
     CandidateRace race(entries);

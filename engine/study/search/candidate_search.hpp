@@ -19,6 +19,7 @@
 #include "engine/run/comparison.hpp"
 #include "engine/study/search/candidate_race.hpp"
 #include "engine/study/search/point.hpp"
+#include "engine/study/search/search_cases.hpp"
 
 namespace extremal {
 
@@ -39,6 +40,13 @@ public:
     CandidateSearch(const ResolvedScene& scene, std::vector<SearchedScheme> schemes,
                     std::vector<Metric> metrics, References references, ReferenceInfo reference,
                     bool isCounted, double seconds, const std::stop_token& stop);
+
+    /// Errors are the largest, or the middle ones, of these in place of the scene's; of the largest the case
+    /// that failed last is run first, and a setting that fails there is not run on the others.
+    void judgeOver(std::vector<SearchCase> cases, bool isMedian) {
+        cases_ = std::move(cases);
+        isMedian_ = isMedian;
+    }
 
     /// One result per scheme: what reaches the wishes, one per metric, at the lowest cost, with status done;
     /// else the nearest, with status failed and the reason. Those that reach it are timed `repeat` times,
@@ -64,11 +72,14 @@ private:
         return scene_.schemes[schemes_[index].point.scheme];
     }
     StudyPoint pointAt(const StudyPoint& own, const ResolvedScheme& scheme, double n) const;
+    std::vector<std::size_t> orderOfTrials() const;
     CandidateRace raceFor(std::span<const double> wishes);
     RaceEntry entryFor(const StudyPoint& own, const ResolvedScheme& scheme);
     void findStart(const StudyPoint& own, const ResolvedScheme& scheme, RaceEntry& entry);
     RaceRun runOf(const StudyPoint& own, const ResolvedScheme& scheme, const RaceJob& job,
                   std::span<const double> wishes);
+    PointResult runCases(const StudyPoint& own, const StudyPoint& at, int repeat, const CostLimit& limit,
+                         std::span<const double> wishes);
     void drive(CandidateRace& race, const std::function<RaceRun(const RaceJob&)>& run);
     void reduce(std::size_t index, std::span<const double> wishes, PointResult& result);
     PointResult resultOf(const CandidateRace& race, std::size_t index) const;
@@ -87,6 +98,8 @@ private:
     std::vector<Metric> metrics_;
     References references_;
     ReferenceInfo reference_;
+    std::vector<SearchCase> cases_;  ///< empty: the scene; else the hardest first
+    bool isMedian_ = false;
     bool isCounted_;
     double seconds_, spent_ = 0, length_;
     std::stop_token stop_;

@@ -10,7 +10,9 @@
 #include "engine/core/problem.hpp"
 #include "engine/family/parts/steps.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/study/search/ladder.hpp"
 
 namespace extremal {
 namespace {
@@ -81,6 +83,48 @@ ResolvedScheme candidateOf(const Value& given, const std::string& label, const R
         const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
         if (family && !appliesTo(*family, system)) refuse(lacking(family->item, system));
     }
+    return acceptedBy(scene, spec);
+}
+
+/// Compositions of what is symmetric and of order 2, to orders 4 and 6; those of the scene are there already.
+void addCompositions(Candidates& all) {
+    const std::size_t plain = all.scene.schemes.size();
+    for (std::size_t i = 0; i < plain; ++i) {
+        const ResolvedScheme part = all.scene.schemes[i];
+        // Low degrees with other rules are the same scheme, or explicit ones that are there as baselines.
+        if (part.family && part.discretization.quadrature.type != "gauss") continue;
+        if (part.isComposed() || !part.isFixed() || !part.claims.isSymmetric || part.claims.order != 2 ||
+            hasStepOfItsSpace(all.scene, part))
+            continue;
+        for (const CatalogItem& composition : compositionCatalog())
+            for (const int order : {4, 6}) {
+                SchemeSpec spec = part.spec;
+                spec.composition = {composition.id, {{"order", static_cast<double>(order)}}, {}};
+                spec.isEnabled = false;
+                const bool isThere = std::any_of(
+                    all.scene.scene.schemes.begin(), all.scene.scene.schemes.end(), [&](const SchemeSpec& s) {
+                        return s.composition == spec.composition && s.named == spec.named &&
+                               s.baseline == spec.baseline && s.space == spec.space;
+                    });
+                std::string hint;
+                if (isThere || !compositionRefusal(spec.composition, part.claims, hint).empty()) continue;
+                spec.label += ", " + composition.id + " " + std::to_string(order);
+                try {
+                    ResolvedScheme candidate = acceptedBy(all.scene, spec);
+                    all.scene.scene.schemes.push_back(candidate.spec);
+                    all.scene.schemes.push_back(std::move(candidate));
+                } catch (const InvalidScene& e) {
+                    all.refused.push_back({spec.label, e.problems().front().message});
+                }
+            }
+    }
+}
+
+}  // namespace
+
+ResolvedScheme acceptedBy(const ResolvedScene& scene, const SchemeSpec& spec) {
+    const System& system = *scene.system;
+    const auto refuse = [](const std::string& why) { throw InvalidScene("/schemes", why); };
     ResolvedScheme scheme = resolve(spec, &system);
     if (!scheme.fits(system)) refuse("does not take " + system.id);
     if (!scheme.properties.refusal.empty()) refuse(scheme.properties.refusal);
@@ -96,8 +140,6 @@ ResolvedScheme candidateOf(const Value& given, const std::string& label, const R
     resolveSystem(scheme, scene.scene);
     return scheme;
 }
-
-}  // namespace
 
 std::vector<Value> everyScheme(const std::set<int>& degrees) {
     std::vector<Value> all;
@@ -131,6 +173,7 @@ Candidates candidatesFor(const ResolvedScene& scene) {
             all.refused.push_back({label, e.problems().front().message});
         }
     }
+    addCompositions(all);
     return all;
 }
 

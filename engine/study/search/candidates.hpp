@@ -15,6 +15,10 @@ namespace extremal {
 /// step. A baseline under error control has a tolerance.
 std::vector<Value> everyScheme(const std::set<int>& degrees);
 
+/// A scheme that is to be tried on a scene; its step is that of its space where this says one. Throws
+/// InvalidScene, with the reason alone, where the system does not take it.
+ResolvedScheme acceptedBy(const ResolvedScene& scene, const SchemeSpec& spec);
+
 struct RefusedCandidate {
     std::string label, reason;
 };
@@ -26,7 +30,8 @@ struct Candidates {
     std::vector<RefusedCandidate> refused;  ///< those that do not
 };
 
-/// Named schemes up to degree 8, baselines and reduced models, but for those that the scene has.
+/// Named schemes up to degree 8, baselines and reduced models, and compositions of those that are symmetric
+/// and of order 2 (also of the scene's own); but for those that the scene has.
 Candidates candidatesFor(const ResolvedScene& scene);
 
 }  // namespace extremal

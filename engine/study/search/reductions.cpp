@@ -20,7 +20,7 @@ void set(Settings& settings, const char* key, int value) {
 }  // namespace
 
 Reduction richnessOf(const ResolvedScheme& scheme) {
-    if (!scheme.family || scheme.isComposed()) return {};
+    if (!scheme.family || scheme.isComposed() || scheme.isTested()) return {};
     const Reduction has{wholeNumber(scheme.discretization.space, "degree"),
                         wholeNumber(scheme.discretization.quadrature, "nodes")};
     return has.degree > 0 && has.nodes > 0 ? has : Reduction{};

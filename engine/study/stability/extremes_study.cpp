@@ -87,9 +87,7 @@ Value optionsValue(const ExtremesOptions& options) {
     value.set("y", options.y ? textOf(*options.y) : "");
     value.set("metric", options.metric);
     value.set("final", options.isAtEnd);
-    Value::Array wishes;
-    for (const Wish& wish : options.wishes) wishes.push_back(Value::Array{wish.metric, wish.value});
-    value.set("wishes", wishes);
+    value.set("wishes", valueOf(options.wishes));
     value.set("only", arrayOf(options.only));
     return value;
 }
@@ -100,8 +98,7 @@ ExtremesOptions extremesOptionsOf(const Value& value) {
     if (const std::string& y = value.find("y")->asString(); !y.empty()) options.y = parseAxis(y, "--y");
     options.metric = value.find("metric")->asString();
     options.isAtEnd = value.find("final")->asBool();
-    for (const Value& wish : value.find("wishes")->asArray())
-        options.wishes.push_back({wish.asArray()[0].asString(), wish.asArray()[1].asNumber()});
+    options.wishes = wishesOf(*value.find("wishes"));
     options.only = textsOf(*value.find("only"));
     return options;
 }

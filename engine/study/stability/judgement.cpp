@@ -16,6 +16,7 @@ Judgement ofFailure(Outcome cause) {
         case Outcome::refused:
             return Judgement::refused;
         case Outcome::lost:
+        case Outcome::underResolved:
             return Judgement::lost;
         case Outcome::stopped:
         case Outcome::stepBudget:

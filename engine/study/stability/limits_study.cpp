@@ -58,9 +58,7 @@ Value optionsValue(const LimitsOptions& options) {
     Value value;
     value.set("metric", options.metric);
     value.set("final", options.isAtEnd);
-    Value::Array wishes;
-    for (const Wish& wish : options.wishes) wishes.push_back(Value::Array{wish.metric, wish.value});
-    value.set("wishes", wishes);
+    value.set("wishes", valueOf(options.wishes));
     value.set("seconds", options.seconds);
     value.set("only", arrayOf(options.only));
     return value;
@@ -70,8 +68,7 @@ LimitsOptions limitsOptionsOf(const Value& value) {
     LimitsOptions options;
     options.metric = value.find("metric")->asString();
     options.isAtEnd = value.find("final")->asBool();
-    for (const Value& wish : value.find("wishes")->asArray())
-        options.wishes.push_back({wish.asArray()[0].asString(), wish.asArray()[1].asNumber()});
+    options.wishes = wishesOf(*value.find("wishes"));
     options.seconds = value.find("seconds")->asNumber();
     options.only = textsOf(*value.find("only"));
     return options;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/core/problem.hpp"
+#include "engine/integrator/stability.hpp"
 #include "engine/scene/outlook/scheme_stability.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/write/codec.hpp"
@@ -147,24 +148,15 @@ TestEquation testEquation(const Scene& scene, std::size_t scheme, const System& 
     throw InvalidScene("", "there is no linear test equation for " + system.id);
 }
 
+/// In the whole range that a study shows.
 void findLimit(TestEquation& equation, LinearStability& result, const std::stop_token& stop) {
-    constexpr double fine = 0.01, fineEnd = 20, ratio = 1.05, end = 1e4;
-    double low = 0;
-    for (double z = fine; z <= end && !stop.stop_requested(); z = z < fineEnd ? z + fine : z * ratio) {
-        if (equation.at(z).isStable()) {
-            low = z;
-            continue;
-        }
-        double high = z;
-        for (int i = 0; i < 60 && low > 0 && high - low > 4e-16 * high; ++i) {
-            const double middle = (low + high) / 2;
-            (equation.at(middle).isStable() ? low : high) = middle;
-        }
-        result.hasLimit = true;
-        result.low = low;
-        result.high = high;
-        return;
-    }
+    constexpr StabilityScan scan{.fine = 0.01, .fineEnd = 20, .coarse = 0, .ratio = 1.05, .end = 1e4};
+    const StabilityEdge edge =
+        firstInstability([&](double z) { return stop.stop_requested() || equation.at(z).isStable(); }, scan);
+    result.hasLimit = edge.isFound() && !stop.stop_requested();
+    if (!result.hasLimit) return;
+    result.low = edge.low;
+    result.high = edge.high;
 }
 
 /// By the coefficients of the scheme, where they say: between two neighbouring numbers.

@@ -123,7 +123,7 @@ StabilityResult runResolved(const ResolvedScene& scene, const std::stop_token& s
     if (energy) r.maxEnergyError = line.largest;
     r.cause = report.outcome;
     const bool isLost = report.outcome == Outcome::converged && (isOut || motion.hasGained());
-    if (isLost) r.cause = Outcome::lost;
+    if (isLost) r.cause = isOut ? motion.outcome() : Outcome::lost;
     if (isLarge || isLost || report.outcome == Outcome::notFinite)
         r.kind = StabilityClass::blowUp;
     else if (report.outcome != Outcome::converged)

@@ -7,6 +7,7 @@
 #include "engine/core/known_value.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/study/catalog.hpp"
+#include "engine/study/search/term_costs.hpp"
 #include "engine/study/studies/model_in_place.hpp"
 
 namespace extremal::studies {
@@ -22,16 +23,15 @@ std::string textOfSteps(const Sweep& sweep, const SweepRow& row) {
 
 /// How many times what a rung costs the next lower wish takes; unknown where it is the last, or not reached.
 double timesOfNext(const Sweep& sweep, std::size_t i) {
-    const std::vector<SweepRow>& rows = sweep.rows();
-    if (i + 1 >= rows.size() || !rows[i].result.isDone() || !rows[i + 1].result.isDone())
-        return PointResult::unknown;
-    return rows[i + 1].result.cpuSeconds / rows[i].result.cpuSeconds;
+    if (i + 1 >= sweep.rows().size()) return PointResult::unknown;
+    const PointResult &own = sweep.answer(i).result, &next = sweep.answer(i + 1).result;
+    return own.isDone() && next.isDone() ? next.cpuSeconds / own.cpuSeconds : PointResult::unknown;
 }
 
 std::vector<Value::Array> rungs(const Sweep& sweep) {
     std::vector<Value::Array> all;
     for (std::size_t i = 0; i < sweep.rows().size(); ++i) {
-        const SweepRow& row = sweep.rows()[i];
+        const SweepRow& row = sweep.answer(i);
         const PointResult& r = row.result;
         if (r.status == RunStatus::waiting) continue;
         all.push_back({sweep.options().rungs[i], sweep.scene().scene.schemes[row.point.scheme].label,
@@ -48,7 +48,8 @@ std::vector<Value::Array> rungs(const Sweep& sweep) {
 /// first.
 std::vector<const SweepRow*> joined(const Sweep& sweep) {
     std::vector<const SweepRow*> all;
-    for (const SweepRow& row : sweep.rows()) {
+    for (std::size_t i = 0; i < sweep.rows().size(); ++i) {
+        const SweepRow& row = sweep.answer(i);
         if (row.result.status == RunStatus::waiting) continue;
         const bool isSame = !all.empty() && all.back()->point.scheme == row.point.scheme &&
                             all.back()->result.isDone() == row.result.isDone();
@@ -77,6 +78,16 @@ std::vector<Value::Array> summaryOfRungs(const Sweep& sweep) {
     return all;
 }
 
+/// What may be left out of the formula itself.
+std::vector<StudyTable> tableOfTerms(const Sweep& sweep) {
+    StudyTable table{"needs-terms", {"term", "first_order", "measured", "may_go_above"}, {}};
+    if (!sweep.isComplete()) return {};
+    for (const TermCost& cost : termCosts(sweep.scene(), sweep.metric(), {}))
+        table.rows.push_back({cost.term, knownNumber(cost.firstOrder), knownNumber(cost.measured),
+                              knownNumber(TermCost::safety * cost.firstOrder)});
+    return table.rows.empty() ? std::vector<StudyTable>{} : std::vector<StudyTable>{std::move(table)};
+}
+
 }  // namespace
 
 StudyEntry needs() {
@@ -96,6 +107,7 @@ StudyEntry needs() {
     e.summaryColumns = {"down to", "scheme", "model", "kept", "cpu seconds", "error", "times the one above"};
     e.summary = summaryOfRungs;
     e.summaryPoints = joined;
+    e.besides = tableOfTerms;
     return e;
 }
 

@@ -221,6 +221,16 @@ private slots:
             before = workOf(row.result, 1);
         }
         QCOMPARE(labels, (std::vector<std::string>{"averaged", "multiscale-r1", "multiscale-r2"}));
+        // What reaches a smaller wish for less serves the larger one as well.
+        Sweep dearer = ladder;
+        const std::size_t last = options.rungs.size() - 1;
+        PointResult first = ladder.rows()[0].result;
+        QCOMPARE(ladder.answer(0).result.steps, first.steps);
+        first.cost.evaluations = 2 * ladder.rows()[last].result.cost.evaluations;
+        first.scheme = ladder.rows()[0].point.scheme;
+        dearer.take(0, first);
+        QVERIFY(&dearer.answer(0) != &dearer.rows()[0]);
+        QVERIFY(workOf(dearer.answer(0).result, 1) < workOf(first, 1));
         Sweep copy(stiffSpring(), options);
         for (const std::string& line : lines) (void)takeLine(line, copy);
         const StudyEntry& study = *findStudy("needs");
