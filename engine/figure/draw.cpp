@@ -50,7 +50,9 @@ struct Draw {
 
     Figure operator()(const ErrorAgainstTime& recipe) const {
         Figure figure = startFigure(context, context.entry.item.title);
-        figure.y = logAxis(axisTitle(recipe.symbol, columnInfo(context, recipe.column).unit));
+        const ColumnInfo column = columnInfo(context, recipe.column);
+        const std::string symbol = recipe.symbol.empty() ? "|" + column.symbol + "|" : recipe.symbol;
+        figure.y = logAxis(axisTitle(symbol, column.unit));
         addErrors(figure, context, recipe.column);
         std::vector<std::pair<double, std::string>> each;
         for (const Series& s : figure.series())

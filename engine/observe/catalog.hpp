@@ -12,7 +12,7 @@
 #include "engine/core/outcome.hpp"
 #include "engine/core/state.hpp"
 #include "engine/family/scheme.hpp"
-#include "engine/integrator/with_variations.hpp"
+#include "engine/integrator/variation/with_variations.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/evaluation.hpp"
 #include "engine/trajectory/trajectory.hpp"

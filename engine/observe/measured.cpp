@@ -3,6 +3,12 @@
 
 #include <utility>
 
+#include "engine/model/spins/spins.hpp"
+#include "engine/model/first_order/poisson.hpp"
+#include "engine/model/group/lie_group.hpp"
+#include "engine/model/group/spheres.hpp"
+#include "engine/model/wave/interaction.hpp"
+
 namespace extremal {
 
 Observer bindMeasure(const Measure& measure, const State& initial) {
@@ -19,6 +25,8 @@ Observer bindMeasure(const Measure& measure, const State& initial) {
 
 ObservableEntry measuredObservable(CatalogItem item) {
     ObservableEntry e;
+    e.takes = plainProblems()
+                  .with<Interaction, LieGroup, Spheres, PhaseMechanics, Spins, PoissonStructure, Rotation>();
     e.suits = [id = item.id](const System& system) { return measureOf(system, id) != nullptr; };
     e.bind = [id = item.id](const ObserveContext& context) {
         return bindMeasure(*measureOf(context.system, id), context.initial);

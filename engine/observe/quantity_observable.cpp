@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/model/spins/spins.hpp"
+#include "engine/model/group/lie_group.hpp"
 #include "engine/observe/quantity_observable.hpp"
 
 #include <cmath>
 #include <utility>
 
-#include "engine/model/one_form.hpp"
+#include "engine/model/first_order/one_form.hpp"
+#include "engine/model/first_order/poisson.hpp"
 #include "engine/model/phase_mechanics.hpp"
 
 namespace extremal {
@@ -36,7 +39,7 @@ ObservableEntry variationObservable(CatalogItem item, std::vector<Column> column
     ObservableEntry e;
     e.item = std::move(item);
     e.variations = plan;
-    e.takes = Takes::only<Mechanical, Body, PhaseMechanics, OneForm>();
+    e.takes = Takes::only<Mechanical, Body, LieGroup, PhaseMechanics, Spins, OneForm, PoissonStructure>();
     e.bind = [columns = std::move(columns), isDefect](const ObserveContext& context) {
         Observer o = observeQuantities(context, columns);
         if (isDefect) o.extreme = 0;
@@ -51,6 +54,23 @@ ObservableEntry quantityObservable(CatalogItem item, Column column) {
     e.takes = Takes::only<ScalarField>();
     e.bind = [column = std::move(column)](const ObserveContext& context) {
         return observeQuantity(context, column);
+    };
+    return e;
+}
+
+ObservableEntry defectObservable(CatalogItem item, Column column) {
+    ObservableEntry e = variationObservable(std::move(item), {}, {.map = true}, true);
+    e.bind = [column = std::move(column)](const ObserveContext& context) {
+        const auto place = context.quantity("symplecticity");
+        Observer o;
+        o.columns = {column};
+        o.extreme = 0;
+        o.readsQuantities = place.has_value();
+        o.evaluate = [place](const NodeBlock& nodes, double* values, std::size_t stride) {
+            for (std::size_t i = 0; i < nodes.size(); ++i)
+                values[i * stride] = place ? nodes.quantities(i)[*place] : std::nan("");
+        };
+        return o;
     };
     return e;
 }

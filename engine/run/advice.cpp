@@ -9,6 +9,7 @@
 #include "engine/core/text/text.hpp"
 #include "engine/family/parts/advice.hpp"
 #include "engine/integrator/switch_values.hpp"
+#include "engine/model/parts/validity_limit.hpp"
 #include "engine/run/march/motion_check.hpp"
 #include "engine/scene/outlook/scheme_stability.hpp"
 
@@ -105,25 +106,24 @@ bool passesSwitch(const System& system, const State& state, double step) {
 std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
                       const State& initial, const State& state, std::optional<double> undefinedAt) {
     if (outcome == Outcome::stopped || outcome == Outcome::converged) return {};
+    if (outcome == Outcome::underResolved)
+        if (const auto* const limit = system.parts.find<ValidityLimit>()) return limit->why(initial, state);
     const Family* const family = scheme.family ? scheme.family : familyFor(system);
     const auto* const advice = family && !undefinedAt ? family->parts.find<Advice>() : nullptr;
     if (advice)
         if (const std::string own = advice->after(outcome); !own.empty()) return own;
-    if (scheme.baseline && scheme.grid == TimeGrid::free) {
-        // Its step is a function of the state, and no first step keeps the density from what it does there.
-        if (outcome == Outcome::singular)
-            return "Its steps follow the density of the local action error, which changes its sign before "
-                   "the "
-                   "next node: there is no step across, however short the first one. Try a fixed step, or an "
-                   "adaptive code such as dopri5.";
-        if (outcome == Outcome::refused)
-            return "The density of the local action error, which its steps follow, is 0 or not a number at "
-                   "the start. Try a fixed step, or an adaptive code such as dopri5.";
-    }
+    if (scheme.baseline && scheme.grid == TimeGrid::free && outcome == Outcome::refused)
+        return "The density of the local action error, which its steps follow, is 0 or not a number at the "
+               "start. Try a fixed step, or an adaptive code such as dopri5.";
+    if (scheme.isMonitored() && outcome == Outcome::singular)
+        return "The monitor that its steps follow is not positive there. Try another one, or a shorter first "
+               "step.";
     if (outcome == Outcome::accumulation)
-        return "Impacts follow each other ever faster there, or the body stays on a wall. Motion along a "
-               "wall is "
-               "not integrated: the run ends. A constraint holds a body on a surface from the start.";
+        return "Impacts, or switches of parameters that undo each other, follow each other without end "
+               "there, "
+               "and no body can come to rest: constraints and walls depend on each other. A shorter run, or "
+               "a "
+               "constraint in place of a wall.";
     if (outcome == Outcome::stepBudget)
         return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an "
                "earlier end.";

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "engine/observe/catalog.hpp"
 #include "engine/run/march/march.hpp"
@@ -24,6 +26,7 @@ void addWayBack(SchemeResult& result, Integrator& back, const State& end, const 
     if (column == rows.columns.end() || rows.rows() == 0) return;
     const auto extreme = std::find_if(result.summary.extremes.begin(), result.summary.extremes.end(),
                                       [&](const auto& e) { return e.column == name; });
+    const bool isFixed = back.grid() == TimeGrid::fixed;
     // Rows are in the order of their nodes; the way back meets the last of them first.
     std::size_t left = rows.rows();
     const auto see = [&](const Stretch& stretch) {
@@ -32,7 +35,8 @@ void addWayBack(SchemeResult& result, Integrator& back, const State& end, const 
             while (left > 0 && rows.nodes[left - 1] > node) --left;  // between nodes
             if (left == 0 || rows.nodes[left - 1] != node) continue;
             const double* const x = stretch.nodes.x(i);
-            double sum = 0;
+            const double late = isFixed ? 0 : stretch.nodes.t(i) - rows.columns[0].values[left - 1];
+            double sum = late * late;
             for (std::size_t k = 0; k < stretch.nodes.width(); ++k) {
                 const double off = x[k] - rows.columns[k + 1].values[left - 1];
                 sum += off * off;
@@ -44,8 +48,14 @@ void addWayBack(SchemeResult& result, Integrator& back, const State& end, const 
         return left > 0;
     };
     const MarchSink sink{see};
-    State state{end.t, 0, end.x, {}};
-    const MarchGrid grid{Clock{end.t, back.stepSize()}, end.node, 0};
+    // Where steps follow the state, what they began with goes with the run.
+    State state{end.t, 0, end.x, isFixed ? std::vector<double>{} : end.memory};
+    MarchGrid grid{Clock{end.t, back.stepSize()}, end.node, 0};
+    if (!isFixed) {
+        grid.isBackwards = true;
+        grid.end = -std::numeric_limits<double>::infinity();
+        grid.budget = end.node;
+    }
     (void)march(back, state, grid, {&sink, 1}, stop);
 }
 

@@ -161,7 +161,7 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
         }
     }
     if (wantsWayBack(scene_.observe) && !p.stopped && result.summary.status == RunStatus::done &&
-        scheme_.isFixed()) {
+        (scheme_.isFixed() || scheme_.isMonitored())) {
         publish(result);
         addWayBack(result, *scheme_.make(system, -step, p.state), p.state, stop);
     }

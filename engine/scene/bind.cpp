@@ -10,7 +10,9 @@
 #include "engine/mechanism/mechanism_start.hpp"
 #include "engine/model/parts/written_form.hpp"
 #include "engine/scene/outlook/two_positions.hpp"
+#include "engine/scene/outlook/varied_scene.hpp"
 #include "engine/scene/reflections.hpp"
+#include "engine/scene/switches.hpp"
 
 namespace extremal {
 
@@ -19,6 +21,8 @@ System makeSystem(const Scene& scene) {
     if (!entry) throw InvalidScene("/model/type", "unknown model \"" + scene.model.type + "\"");
     System system = entry->make(scene.model);
     addReflections(system, scene.events);
+    nameVariedNumbers(system, scene);
+    addSwitches(system, scene);
     return system;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/mechanism/joined_constraints.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/model/typed/parts/typed_parts.hpp"
 #include "engine/scene/event_names.hpp"
@@ -125,13 +126,12 @@ void addReflections(System& system, const std::vector<EventSpec>& events) {
         const Wall* const known = system.parts.find<Wall>();
         std::erase_if(system.momenta,
                       [&](const MomentumMap& map) { return isChangedBy(own, map, system.dimension()); });
+        const auto* const contact = system.parts.find<WallContact>();
+        const Constraint gaps = typed::contactWith(own).gaps;
+        system.parts.set(WallContact{
+            joinedConstraints(contact ? &contact->gaps : nullptr, gaps, {0}, system.dimension())});
         system.parts.set(known ? joined(*known, own, system.dimension()) : own);
-        // What is known of the motion without it.
-        system.exact = {};
-        system.exactFrom = {};
-        system.phaseError = {};
-        system.fast = {};
-        system.reduced.clear();
+        forgetKnownMotion(system);
     }
 }
 

@@ -6,10 +6,14 @@
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/parts/meshes.hpp"
+#include "engine/family/parts/parameter_switching.hpp"
 #include "engine/family/parts/starts.hpp"
+#include "engine/family/parts/test_space.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/at_switches.hpp"
 #include "engine/integrator/composition.hpp"
+#include "engine/phase/monitored.hpp"
+#include "engine/phase/monitored_step.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/outlook/scheme_stability.hpp"
 
@@ -19,6 +23,20 @@ namespace {
 /// Why the family or the baseline of a scheme does not take the system; empty if it does. What a single space
 /// has against the system is said by its maker.
 std::string refusalOf(const ResolvedScheme& scheme, const System& system) {
+    if (scheme.isMonitored()) {
+        if (!hasHamiltonian(system))
+            return "a monitor needs a Lagrangian or a Hamiltonian in coordinates and nothing besides, "
+                   "which " +
+                   system.id + " is not";
+        ResolvedScheme inner = scheme;
+        inner.spec.monitor = {};
+        return refusalOf(inner, monitoredKind(system));
+    }
+    if (scheme.isTested() && !canKeepInvariants(system))
+        return "invariants are kept of motions that a Lagrangian, a Hamiltonian, a one-form or a bracket "
+               "alone gives, which " +
+               system.id + " is not";
+    if (scheme.isTested()) return {};
     if (scheme.family)
         return appliesTo(*scheme.family, system) ? std::string() : mismatch(scheme.discretization, system);
     const BaselineEntry& entry = *scheme.baseline;
@@ -28,7 +46,46 @@ std::string refusalOf(const ResolvedScheme& scheme, const System& system) {
     return entry.item.id + " cannot integrate " + system.id + (needed.empty() ? "" : ": it needs " + needed);
 }
 
+/// Of a system whose parameters stay as they are.
+std::unique_ptr<Integrator> makeFor(const ResolvedScheme& scheme, const System& system, double step,
+                                    const State& start) {
+    if (const std::string refusal = refusalOf(scheme, system); !refusal.empty())
+        throw InvalidScene(scheme.family ? "/space/type" : "/baseline", refusal, schemesFor(system));
+    if (scheme.isMonitored()) {
+        const MonitoredProblem problem = monitoredProblem(system, scheme.spec.monitor, start, step);
+        ResolvedScheme inner = scheme;
+        inner.spec.monitor = {};
+        return makeMonitored(problem, makeFor(inner, problem.system, step, problem.start), step);
+    }
+    std::unique_ptr<Integrator> integrator;
+    if (scheme.isTested()) {
+        integrator = scheme.family->parts.find<TestSpace>()->make(
+            system, scheme.discretization, step, invariantsOf(scheme.spec.keep, system, start));
+    } else if (scheme.family) {
+        integrator =
+            makeIntegrator(system, withEstimates(scheme.discretization, system, start), {start.t, step});
+    } else {
+        BaselineOptions options;
+        options.step = step;
+        options.start = start;
+        options.tolerance = scheme.spec.tolerance.value_or(0);
+        options.settings = scheme.spec.baseline;
+        const auto made = [&entry = *scheme.baseline, options](const System& smooth) {
+            return entry.make(smooth, options);
+        };
+        integrator = scheme.isAdaptive() ? landingOnSwitches(system, made) : made(system);
+    }
+    return scheme.isComposed() ? composed(scheme.parts, *integrator) : std::move(integrator);
+}
+
 }  // namespace
+
+ResolvedScheme::ResolvedScheme() = default;
+ResolvedScheme::ResolvedScheme(const ResolvedScheme&) = default;
+ResolvedScheme::ResolvedScheme(ResolvedScheme&&) noexcept = default;
+ResolvedScheme& ResolvedScheme::operator=(const ResolvedScheme&) = default;
+ResolvedScheme& ResolvedScheme::operator=(ResolvedScheme&&) noexcept = default;
+ResolvedScheme::~ResolvedScheme() = default;
 
 double ResolvedScheme::stabilityLimit() const {
     const auto known = stabilityOf(*this);
@@ -42,28 +99,20 @@ int ResolvedScheme::orderInSpace() const {
 }
 
 bool ResolvedScheme::fits(const System& system) const {
+    if (isMonitored()) {
+        if (!hasHamiltonian(system)) return false;
+        const System kind = monitoredKind(system);
+        return family ? isFor(discretization, kind) : appliesTo(*baseline, kind);
+    }
+    if (isTested()) return canKeepInvariants(system) && properties.refusal.empty();
     return family ? isFor(discretization, system) : appliesTo(*baseline, system);
 }
 
 std::unique_ptr<Integrator> ResolvedScheme::make(const System& system, double step,
                                                  const State& start) const {
-    if (const std::string refusal = refusalOf(*this, system); !refusal.empty())
-        throw InvalidScene(family ? "/space/type" : "/baseline", refusal, schemesFor(system));
-    std::unique_ptr<Integrator> integrator;
-    if (family) {
-        integrator = makeIntegrator(system, withEstimates(discretization, system, start), {start.t, step});
-    } else {
-        BaselineOptions options;
-        options.step = step;
-        options.start = start;
-        options.tolerance = spec.tolerance.value_or(0);
-        options.settings = spec.baseline;
-        const auto made = [&entry = *baseline, options](const System& smooth) {
-            return entry.make(smooth, options);
-        };
-        integrator = isAdaptive() ? landingOnSwitches(system, made) : made(system);
-    }
-    return isComposed() ? composed(parts, *integrator) : std::move(integrator);
+    return withSwitchedParameters(system, start, [scheme = *this, step](const System& s, const State& from) {
+        return makeFor(scheme, s, step, from);
+    });
 }
 
 std::optional<Discretization> discretizationOf(const SchemeSpec& scheme) {
@@ -79,12 +128,21 @@ std::optional<Discretization> discretizationOf(const SchemeSpec& scheme) {
 ResolvedScheme resolve(const SchemeSpec& scheme, const System* system) {
     ResolvedScheme r;
     r.spec = scheme;
+    std::optional<System> kind;  // of a monitored scheme
+    if (system && !scheme.monitor.type.empty() && hasHamiltonian(*system))
+        system = &kind.emplace(monitoredKind(*system));
     if (auto discretization = discretizationOf(scheme)) {
         r.discretization = std::move(*discretization);
         r.family = familyOf(r.discretization.space);
         if (!r.family) throw InvalidScene("/space/type", "there is no space \"" + scheme.space.type + "\"");
         r.grid = timeGridOf(r.discretization.space);
-        r.properties = system ? describe(r.discretization, *system) : describe(r.discretization);
+        const auto* const test = scheme.keep.empty() ? nullptr : r.family->parts.find<TestSpace>();
+        if (!scheme.keep.empty() && !test)
+            throw InvalidScene("/keep", r.family->item.title + " schemes keep what they keep",
+                               "the space polynomial, or no \"keep\"");
+        r.properties = test     ? test->describe(r.discretization, scheme.keep)
+                       : system ? describe(r.discretization, *system)
+                                : describe(r.discretization);
         r.claims = r.properties.claims;
     } else {
         if (scheme.kind == SchemeSpec::Kind::named)
@@ -94,11 +152,17 @@ ResolvedScheme resolve(const SchemeSpec& scheme, const System* system) {
         r.claims = claimsOf(*r.baseline, scheme.baseline, system);
         r.grid = r.baseline->grid;
     }
-    if (scheme.composition.type.empty()) return r;
-    r.parts = compositionParts(scheme.composition, r.claims.order);
-    r.claims = composedClaims(scheme.composition, r.claims);
-    const int most = r.orderInSpace();
-    if (most > 0) r.claims.order = std::min(r.claims.order, most);
+    if (!scheme.composition.type.empty()) {
+        r.parts = compositionParts(scheme.composition, r.claims.order);
+        r.claims = composedClaims(scheme.composition, r.claims);
+        const int most = r.orderInSpace();
+        if (most > 0) r.claims.order = std::min(r.claims.order, most);
+    }
+    if (r.isMonitored()) {
+        r.grid = TimeGrid::free;
+        r.claims.isOneStep = false;  // H_0 goes with the run
+        r.claims.conserves.clear();  // in the time of the monitor, whose symmetries need not be those of H
+    }
     return r;
 }
 

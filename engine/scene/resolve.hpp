@@ -30,9 +30,24 @@ struct ResolvedScheme {
     std::shared_ptr<const System> ownSystem = {};
     State ownInitial = {};
 
+    // Compiled once.
+    ResolvedScheme();
+    ResolvedScheme(const ResolvedScheme&);
+    ResolvedScheme(ResolvedScheme&&) noexcept;
+    ResolvedScheme& operator=(const ResolvedScheme&);
+    ResolvedScheme& operator=(ResolvedScheme&&) noexcept;
+    ~ResolvedScheme();
+
     bool isComposed() const { return !parts.empty(); }
-    /// The discretization that the scheme is, not one that it is composed of; null for baselines.
-    const Discretization* plain() const { return family && !isComposed() ? &discretization : nullptr; }
+    /// Its steps follow a monitor (phase/monitored.hpp).
+    bool isMonitored() const { return !spec.monitor.type.empty(); }
+    /// Its steps keep invariants in place of the symplectic form (family/parts/test_space.hpp).
+    bool isTested() const { return !spec.keep.empty(); }
+    /// The discretization that the scheme is, and not one that it is composed of, takes in another time, or
+    /// tests by other functions; null for baselines.
+    const Discretization* plain() const {
+        return family && !isComposed() && !isMonitored() && !isTested() ? &discretization : nullptr;
+    }
     /// Largest step * frequency on the harmonic oscillator; infinity: none; 0: not known. That of a
     /// composition is measured when it is first asked for.
     double stabilityLimit() const;

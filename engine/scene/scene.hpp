@@ -13,6 +13,7 @@
 #include "engine/core/algebra/number.hpp"
 #include "engine/core/settings.hpp"
 #include "engine/core/value.hpp"
+#include "engine/phase/invariants.hpp"
 #include "engine/view/view.hpp"
 
 namespace extremal {
@@ -30,9 +31,19 @@ struct SchemeSpec {
     Settings baseline;                ///< baseline: type = its name, keys = its options
     std::string named;                ///< named: id from the scheme catalogue
     Settings composition;             ///< type = "yoshida", ...; empty: the scheme as it is
+    std::vector<KeptQuantity> keep;   ///< what its steps keep; empty: the symplectic form
+    Settings monitor;                 ///< what its steps follow: type = "auto", ...; empty: equal steps
     Settings solver;  ///< type = method ("auto", "newton", "fixed-point"); keys tolerance, max_iterations
     bool allowsUnstable = false;
-    bool operator==(const SchemeSpec&) const = default;
+
+    // Compiled once.
+    SchemeSpec();
+    SchemeSpec(const SchemeSpec&);
+    SchemeSpec(SchemeSpec&&) noexcept;
+    SchemeSpec& operator=(const SchemeSpec&);
+    SchemeSpec& operator=(SchemeSpec&&) noexcept;
+    ~SchemeSpec();
+    bool operator==(const SchemeSpec&) const;
 };
 
 /// Colour and dash of a scheme at this place, disabled ones counted.
@@ -61,17 +72,25 @@ struct ReferenceSpec {
 };
 
 /// Something to look for along every motion: where an expression in the state passes zero. reflect: the
-/// motion does not pass it, and bounces with the restitution (scene/reflections.hpp).
+/// motion does not pass it, and bounces with the restitution (scene/reflections.hpp). change: a parameter of
+/// the model takes another value there (scene/switches.hpp).
 struct EventSpec {
     enum class Direction { both, up, down };
-    enum class Action { write, count, stop, reflect };
+    enum class Action { write, count, stop, reflect, change };
     std::string expression;
     std::string label;  ///< empty: the expression
     Direction direction = Direction::both;
     Action action = Action::write;
     std::vector<std::pair<std::string, double>> values = {};  ///< of the model's parameters in it
     double restitution = 1;                                   ///< of reflect
+    std::string parameter = {};                               ///< of change: its name
+    Number value = {};                                        ///< of change: what it is from then on
     const std::string& title() const { return label.empty() ? expression : label; }
+    /// Another value of a parameter in the expression.
+    void setParameter(std::string_view name, double number) {
+        for (auto& each : values)
+            if (each.first == name) each.second = number;
+    }
     bool operator==(const EventSpec&) const = default;
 };
 
@@ -83,12 +102,21 @@ struct Scene {
     std::vector<SchemeSpec> schemes;
     ReferenceSpec reference;
     std::vector<std::string> observe;
+    std::vector<std::string> sensitivity;  ///< pointers to numbers to differentiate by; empty: all parameters
     std::vector<EventSpec> events;
     std::optional<Number> every;  ///< output.every
     bool isDense = false;         ///< output.dense
     std::vector<View> views;
     double maxSteps = 1e11;  ///< limits.steps
-    bool operator==(const Scene&) const = default;
+
+    // Compiled once.
+    Scene();
+    Scene(const Scene&);
+    Scene(Scene&&) noexcept;
+    Scene& operator=(const Scene&);
+    Scene& operator=(Scene&&) noexcept;
+    ~Scene();
+    bool operator==(const Scene&) const;
 };
 
 }  // namespace extremal

@@ -7,8 +7,8 @@
 #include "engine/family/parts/shape_functions.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/resolve.hpp"
 #include "engine/scene/map_grid.hpp"
+#include "engine/scene/resolve.hpp"
 
 namespace extremal {
 namespace {
@@ -38,6 +38,8 @@ std::string unsuitableFor(const ViewEntry& view, const ResolvedScheme& scheme) {
     if (!view.unsuitable) return {};
     if (scheme.baseline) return "a baseline, which no discrete action defines";
     if (scheme.plain()) return view.unsuitable(*scheme.plain());
+    if (scheme.isTested()) return "steps that keep invariants, which no discrete action defines";
+    if (scheme.isMonitored()) return "steps that follow a monitor, in another time than the action";
     return "a composition, whose step is several elements";
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/model/group/lie_group.hpp"
 #include "engine/view/catalog.hpp"
 
 #include <algorithm>
@@ -27,7 +28,9 @@ std::string missingFor(const View& view, const System& system) {
     const ViewEntry* entry = findView(view.id);
     if (!entry) return {};
     const ObservableEntry* const observable = findObservable(entry->observable);
-    const Takes takes = entry->takes ? *entry->takes : observable ? observable->takes : plainProblems();
+    const Takes takes = entry->takes ? *entry->takes
+                        : observable ? observable->takes
+                                     : plainProblemsAndGroups();
     if (const std::string needed = neededInstead(takes, system.parts); !needed.empty()) return needed;
     if (observable && !appliesTo(*observable, system))
         return observable->item.needs.empty() ? "the observable " + entry->observable

@@ -23,8 +23,9 @@ struct ColumnAgainstTime {
 /// The size of a column that vanishes for the exact motion, on a logarithmic axis, against time or the number
 /// of steps (the key "against").
 struct ErrorAgainstTime {
-    std::string column, symbol;
-    double scale = 0;  ///< of the quantity: its round-off is drawn as a faint line; 0: none
+    std::string column;
+    std::string symbol;  ///< of its size; empty: that of the column, between bars
+    double scale = 0;    ///< of the quantity: its round-off is drawn as a faint line; 0: none
 };
 
 /// One state column against time, out of those that ViewEntry::columns names: View::y, else the first.

@@ -16,6 +16,11 @@ inline constexpr std::array<const char*, 8> lightSeries{"#0B62D6", "#D1490C", "#
 inline constexpr std::array<const char*, 8> darkSeries{"#4C9AFF", "#FF7A3D", "#2FBF94", "#BB7FD9",
                                                        "#E0A84A", "#5BBFE6", "#F0588F", "#9AA5B3"};
 
+/// The same on paper: dark and light in turn, so that they differ in grey and for people who lack one kind of
+/// cones. In each of these sights two of the first four are at least 0.15 apart in Oklab, of all eight 0.1.
+inline constexpr std::array<const char*, 8> paperSeries{"#002200", "#D86CA7", "#8F3A24", "#5B5EF5",
+                                                        "#641746", "#987E47", "#6C5A8C", "#001686"};
+
 /// Red, green and blue, 0 to 1, of a scale of values, the same in both themes: lightness grows evenly as the
 /// eye sees it (in Oklab), from violet over blue and green to yellow, so that equal steps look equal, without
 /// colours as well. `part` from 0 to 1.

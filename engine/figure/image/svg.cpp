@@ -145,6 +145,10 @@ public:
         return out_ + "</svg>\n";
     }
 
+    SvgFrame frame() const {
+        return {left_, right_, top_, bottom_, {x_.low, x_.high}, {y_.low, y_.high}, x_.isLog, y_.isLog};
+    }
+
 private:
     void keepAspect() {
         const double perX = (x_.high - x_.low) / (right_ - left_),
@@ -390,5 +394,17 @@ private:
 }  // namespace
 
 std::string svgOf(const Figure& figure, const SvgOptions& options) { return Picture(figure, options).text(); }
+
+SvgFrame svgFrame(const Figure& figure, const SvgOptions& options) {
+    return Picture(figure, options).frame();
+}
+
+std::optional<std::pair<double, double>> SvgFrame::at(double xValue, std::optional<double> yValue) const {
+    const Scale across{x.first, x.second, left, right, isXLog}, up{y.first, y.second, bottom, top, isYLog};
+    if (!across.shows(xValue) || (yValue && !up.shows(*yValue))) return {};
+    const std::pair place(across.at(xValue), yValue ? up.at(*yValue) : top);
+    if (place.first < left || place.first > right || place.second < top || place.second > bottom) return {};
+    return place;
+}
 
 }  // namespace extremal

@@ -8,7 +8,7 @@
 #include "engine/core/library_exceptions.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/integrator/crossing.hpp"
-#include "engine/integrator/with_variations.hpp"
+#include "engine/integrator/variation/with_variations.hpp"
 #include "engine/mechanism/tangent_space.hpp"
 #include "engine/run/march/inside_step.hpp"
 #include "engine/run/march/march_grid.hpp"
@@ -132,10 +132,11 @@ private:
     void cross(const Stretch& stretch) {
         samples_.begin(stretch.integrator, stretch.state.x.size());
         const double noise = roundingOf(stretch.state.x);
+        const bool isForwards = stretch.state.t > stretch.before.t;  // upwards in t
         const auto value = [&](double tau) { return samples_.at(tau)[at_]; };
         for (const Crossing& crossing :
              finder_.find(stretch.before.x[at_], stretch.state.x[at_], samples_.places(), value, noise)) {
-            if (!crossing.isUpwards || !hasRoom()) continue;
+            if (crossing.isUpwards != isForwards || !hasRoom()) continue;
             stretch.integrator.denseOutput(crossing.tau, inside_.x);
             keep(stretch.before.t + crossing.tau * (stretch.state.t - stretch.before.t), inside_.x);
         }

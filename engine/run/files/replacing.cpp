@@ -55,13 +55,17 @@ fs::path folderOfFile(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// The summary of a run in the folder; null where it is missing.
-Value summaryIn(const fs::path& folder) {
-    const Value summary = objectOf(contentOf(folder / "summary.json"));
-    return summary.isObject() && summary.find("extremal") && summary.find("schemes") && summary.find("files")
-               ? summary
-               : Value();
+/// The documents that list the files beside them: of a run, and of answers (answer_files.hpp).
+constexpr const char* documents[] = {"summary.json", "orbit.json", "fit.json"};
+
+/// One of them in the folder; null where it is missing, or is not the program's.
+Value documentIn(const fs::path& folder, const std::string& name) {
+    const Value document = objectOf(contentOf(folder / name));
+    const bool isOwn = document.isObject() && document.find("extremal") && document.find("files") &&
+                       (name != documents[0] || document.find("schemes"));
+    return isOwn ? document : Value();
 }
+Value summaryIn(const fs::path& folder) { return documentIn(folder, documents[0]); }
 
 /// The first line of a log of a study, or of a checkpoint, without its checksum.
 Value keysOf(const fs::path& file) {
@@ -74,12 +78,14 @@ Value keysOf(const fs::path& file) {
 }
 
 bool isListed(const fs::path& file) {
-    const Value summary = summaryIn(folderOfFile(file));
-    const Value* const files = summary.isObject() ? summary.find("files") : nullptr;
-    if (!files || !files->isArray()) return false;
-    const auto& all = files->asArray();
-    return std::any_of(all.begin(), all.end(), [&](const Value& name) {
-        return name.isString() && name.asString() == file.filename().string();
+    return std::any_of(std::begin(documents), std::end(documents), [&](const char* document) {
+        const Value found = documentIn(folderOfFile(file), document);
+        const Value* const files = found.isObject() ? found.find("files") : nullptr;
+        if (!files || !files->isArray()) return false;
+        const auto& all = files->asArray();
+        return std::any_of(all.begin(), all.end(), [&](const Value& name) {
+            return name.isString() && name.asString() == file.filename().string();
+        });
     });
 }
 
@@ -90,6 +96,8 @@ bool isOwnScene(const fs::path& file) {
     // Earlier versions have written no fingerprint.
     if (summary.isObject() && !summary.find("scene") ? isListed(file) : hasText(summary, "scene", print))
         return true;
+    for (const char* document : documents)
+        if (hasText(documentIn(folder, document), "scene", print)) return true;
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder, ignored))
         if (entry.path().extension() == ".log" && hasText(keysOf(entry.path()), "scene", print)) return true;
@@ -117,7 +125,8 @@ bool isOwnPicture(const std::string& bytes) {
 bool isOwn(const fs::path& file, std::optional<std::string_view> text) {
     const std::string name = file.filename().string(), kind = file.extension().string();
     if (name == "scene.json") return isOwnScene(file);
-    if (name == "summary.json") return summaryIn(folderOfFile(file)).isObject();
+    if (std::find(std::begin(documents), std::end(documents), name) != std::end(documents))
+        return documentIn(folderOfFile(file), name).isObject();
     if (kind == ".log" || kind == ".checkpoint") return keysOf(file).isObject();
     if (kind == ".csv") {
         const std::string first(firstLineOf(contentOf(file, 1 << 16)));

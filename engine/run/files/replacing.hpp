@@ -10,10 +10,11 @@
 /// rest,
 ///   so that a file that was edited since is the user's;
 /// - PNG and PDF by the name of the program in their metadata;
-/// - scene.json by its fingerprint in the summary.json or in a log of a study beside it;
-/// - other files of a run by the list in that summary.json, and any CSV file by its first line, which is that
-///   of the file to be written;
-/// - summary.json, logs and checkpoints by their keys.
+/// - scene.json by its fingerprint in the summary.json, in the document of an answer (answer_files.hpp) or in
+///   a log of a study beside it;
+/// - other files of a run or an answer by the list in that document, and any CSV file by its first line,
+///   which is that of the file to be written;
+/// - these documents, logs and checkpoints by their keys.
 #pragma once
 
 #include <filesystem>

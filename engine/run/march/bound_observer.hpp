@@ -27,6 +27,7 @@ struct BoundObserver {
     /// Nodes at which its extreme is not a number, and the time of the first of them.
     long long unknownNodes = 0;
     double unknownFrom = 0;
+    std::string id = {};  ///< of the observable
 };
 
 }  // namespace extremal

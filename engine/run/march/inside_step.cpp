@@ -141,12 +141,13 @@ void InsideStep::keep(const State& at, const StepReport& report) {
 void InsideStep::cross(const Integrator& integrator, const State& before, const State& after) {
     samples_.begin(integrator, after.x.size());
     const double noise = roundingOf(after.x);
+    const bool isForwards = after.t > before.t;  // upwards in t: one section for both ways
     for (const Section& section : sections_) {
         Trajectory& events = result_.products.make<Sections>().all[section.index].events;
         const auto value = [&](double tau) { return samples_.at(tau)[section.column]; };
         for (const Crossing& crossing : finder_.find(before.x[section.column], after.x[section.column],
                                                      samples_.places(), value, noise)) {
-            if (!crossing.isUpwards || events.rows() >= mostPoints) continue;
+            if (crossing.isUpwards != isForwards || events.rows() >= mostPoints) continue;
             integrator.denseOutput(crossing.tau, at_.x);
             appendState(events, before.t + crossing.tau * (after.t - before.t), at_.x, width_);
         }

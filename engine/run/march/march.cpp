@@ -49,6 +49,8 @@ public:
                 report_.failedStep = step.step;
             }
             checkFinite(nodes);
+            for (const MarchSink& sink : sinks_)
+                if (sink.prepare && nodes.size() > 0) sink.prepare();
             checkSound(nodes);
             checkValues(nodes);
             taken += static_cast<long long>(nodes.size());
@@ -130,7 +132,7 @@ private:
         if (!judge_ || nodes.size() == 0) return;
         const std::size_t sound = judge_->soundNodes(nodes, isDone());
         if (sound == nodes.size()) return;
-        report_.outcome = Outcome::lost;
+        report_.outcome = judge_->outcome();
         if (remembers_) goBack(nodes, sound);
     }
     /// The same by what sinks compute of the nodes.

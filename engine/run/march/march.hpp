@@ -66,6 +66,8 @@ struct MarchSink {
     /// march ends, as lost, where that is not all. Asked before any sink is shown the block. Empty: it
     /// computes nothing that could tell.
     std::function<std::size_t(const NodeBlock&)> soundNodes = {};
+    /// Is called after each block before anybody looks at it.
+    std::function<void()> prepare = {};
 };
 
 /// Takes one step from the state with a copy of the integrator, and forgets it: what is met for the first

@@ -73,13 +73,14 @@ bool hasStatesWithoutEnergy(const System& system, const State& start, const Ener
 /// By the number of the node alone, as the sizes of blocks follow the clock.
 bool MotionCheck::looksAt(long long node) const {
     constexpr long long often = 64, apart = 37;  // no common factor
-    if (gains_ > 0 || shifted_ > 0) return true;
+    if (gains_ > 0 || shifted_ > 0 || isResolved_) return true;
     if (node <= often) return std::has_single_bit(static_cast<unsigned long long>(node));
     return node % often == node / often * apart % often;
 }
 
 MotionCheck::MotionCheck(const System& system, const State& start, double step, bool isEnergySeen)
     : isEnergySeen_(isEnergySeen) {
+    if (const auto* const limit = system.parts.find<ValidityLimit>()) isResolved_ = limit->from(start);
     energy_ = energyOf(system);
     const double atStart = energy_ ? energy_(start.t, start.x.data()) : 0;
     if (!std::isfinite(atStart)) energy_ = {};
@@ -119,6 +120,8 @@ bool MotionCheck::isDefined(double t, const double* x, double energy) {
 bool MotionCheck::isSound(double t, const double* x) {
     const double H = energy_ ? energy_(t, x) : 0;
     if (!isDefined(t, x, H)) return false;
+    isUnresolved_ = isResolved_ && !isResolved_(H, x);
+    if (isUnresolved_) return false;
     if (!conserved_) return true;
     const double change = (isConservedEnergy_ ? H : conserved_(t, x)) - start_;
     if (kinetic_) {

@@ -55,6 +55,9 @@
 ///     `isEnergySeen` tells.
 ///   * Everywhere else H is finite but for overflow, and the run ends at one of the nodes above.
 ///
+/// A problem may say itself where its states are not resolved any more (ValidityLimit): every node is looked
+/// at then, and the run ends as under-resolved.
+///
 /// H that is unknown because no velocity is found for a momentum says nothing of the motion.
 #pragma once
 
@@ -62,6 +65,8 @@
 
 #include "engine/core/node_block.hpp"
 #include "engine/core/text/archive.hpp"
+#include "engine/core/outcome.hpp"
+#include "engine/model/parts/validity_limit.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal {
@@ -87,6 +92,8 @@ public:
     void noteEnergy(double t, double energy) {
         if (conserved_ && isConservedEnergy_ && kinetic_) noteShift(t, energy - start_);
     }
+    /// Why the last node that was not sound is not: lost, or under-resolved (ValidityLimit).
+    Outcome outcome() const { return isUnresolved_ ? Outcome::underResolved : Outcome::lost; }
     /// Whether the last node that was not sound has an energy that is not a number.
     bool hasLeftDomain() const { return hasLeftDomain_; }
     /// Whether it is to be shown this node.
@@ -116,6 +123,8 @@ private:
     bool hasEdge_ = false;                                        ///< there are states without an energy
     bool isEnergySeen_ = false;
     bool hasLeftDomain_ = false;
+    ValidityLimit::Holds isResolved_;  ///< empty: nothing ends it
+    bool isUnresolved_ = false;
     double start_ = 0, scale_ = 0;
     double startTime_ = 0, lastTime_ = 0, work_ = 0;  ///< work: kinetic energy times time
     double gainTime_ = 0;                             ///< the last node without a gain

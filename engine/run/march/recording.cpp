@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/core/text/text.hpp"
-#include "engine/integrator/with_exponents.hpp"
+#include "engine/integrator/variation/with_exponents.hpp"
 #include "engine/mechanism/tangent_space.hpp"
 #include "engine/model/conservative.hpp"
 #include "engine/observe/catalog.hpp"
@@ -15,6 +16,7 @@
 #include "engine/run/march/variations_for.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/outlook/local_errors.hpp"
+#include "engine/scene/outlook/sensitivities.hpp"
 
 namespace extremal {
 
@@ -43,13 +45,17 @@ Recording::Recording(const ResolvedScene& resolved, const ResolvedScheme& scheme
     stateWidth = result.trajectory.columns.size() - 1;
     const VariationPlan variations = variationsFor(observe);
     integrator = scheme.make(system, step, initial);
-    const bool hasLocalErrors = variations.errors && localErrorProblem(scheme, system, *integrator).empty();
+    switching = dynamic_cast<const SwitchesParameters*>(integrator.get());
+    const bool hasLocalErrors =
+        variations.errors && !switching && localErrorProblem(scheme, system, *integrator).empty();
     const TangentBasis basis = variations.isEmpty() ? TangentBasis() : tangentBasis(system);
     integrator = withVariations(std::move(integrator), system, variations, basis, freeVariations(system));
     if (variations.frame && integrator->tangentSize() > 0)
         integrator = withExponents(std::move(integrator), basis, freeVariations(system));
     if (hasLocalErrors)
         integrator = measuringLocalErrors(std::move(integrator), scheme, system, step, initial);
+    if (variations.parameters)
+        integrator = measuringSensitivities(std::move(integrator), resolved, scheme, step, initial);
     integrator->setStop(stop);
     result.summary.about = integrator->about();
     bindObservers(reference, observe, initial);
@@ -71,6 +77,7 @@ void Recording::bindObservers(const Reference& reference, const std::vector<std:
                 nullptr,
                 {}};
         b.state = StateValues(*entry, b.observer, system, initial);
+        b.id = id;
         if (id == "energy") {
             isEnergySeen = true;
             energyColumn = b.firstColumn;
@@ -88,6 +95,36 @@ void Recording::bindObservers(const Reference& reference, const std::vector<std:
             summary.about += (summary.about.empty() ? "" : "; ") + b.observer.about;
         delayed.add({b.firstColumn, b.observer.columns.size(), b.observer.delay});
         observers.push_back(std::move(b));
+    }
+}
+
+void Recording::followSwitches(MotionCheck& motion) {
+    if (!switching || switching->switches().empty()) return;
+    const ParameterSwitch& last = switching->switches().back();
+    present = last.system;
+    motion = MotionCheck(*present, last.state, step, isEnergySeen);
+    for (Bound& b : observers) {
+        const ObservableEntry& entry = *findObservable(b.id);
+        if (entry.needsReference) continue;  // the reference is switched by itself
+        const std::size_t width = b.observer.columns.size();
+        const auto isSame = [&](const Observer& next) {
+            return next.columns.size() == width && next.rowColumns.size() == b.observer.rowColumns.size();
+        };
+        std::optional<Observer> next;
+        if (appliesTo(entry, *present))
+            next = entry.bind({*present, last.state, ExactSolution{}, scheme.plain(), step,
+                               integrator->quantities(), integrator.get(), scheme.claims.order});
+        if (next && isSame(*next)) {
+            b.observer.evaluate = next->evaluate;
+            b.observer.evaluateRow = next->evaluateRow;
+            b.state = StateValues(entry, *next, *present, last.state);
+        } else {  // what it measured is not there any more
+            b.observer.evaluate = [width](const NodeBlock& nodes, double* to, std::size_t stride) {
+                for (std::size_t i = 0; i < nodes.size(); ++i)
+                    std::fill_n(to + i * stride, width, std::numeric_limits<double>::quiet_NaN());
+            };
+            b.state = {};
+        }
     }
 }
 

@@ -53,9 +53,11 @@ struct Recording {
     long long nextMultiple = 1;  ///< of output.every, for dense rows
     std::vector<double> values, kept;
     DelayedRows delayed;
-    std::size_t stateWidth = 0;               ///< entries of the state that every row holds
-    std::vector<ExactSolution> references;    ///< of the observers that are given one
-    std::optional<EventWatch::Stop> stopped;  ///< where an event stopped the run, in its last step
+    std::size_t stateWidth = 0;                     ///< entries of the state that every row holds
+    std::vector<ExactSolution> references;          ///< of the observers that are given one
+    const SwitchesParameters* switching = nullptr;  ///< of the integrator; null: its parameters stay
+    std::shared_ptr<const System> present = {};     ///< that moves it now; null: `system`
+    std::optional<EventWatch::Stop> stopped;        ///< where an event stopped the run, in its last step
 
     Recording(const ResolvedScene& resolved, const ResolvedScheme& scheme_, const State& initial,
               const Reference& reference, const std::vector<std::string>& observe, double step_,
@@ -63,6 +65,9 @@ struct Recording {
 
     void bindObservers(const Reference& reference, const std::vector<std::string>& observe,
                        const State& initial);
+    /// Where a parameter of the model was switched: observers and the check of the motion go on with the
+    /// other system, from the state at the switch.
+    void followSwitches(MotionCheck& motion);
     /// Evaluates every observer at the nodes of a block, and counts those whose values are what a motion has.
     std::size_t soundNodes(const NodeBlock& nodes, MotionCheck& motion);
     /// Evaluates every observer at the nodes of a block; row i of `values` belongs to node i.

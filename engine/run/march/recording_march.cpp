@@ -15,6 +15,14 @@
 #include "engine/scene/bind.hpp"
 
 namespace extremal {
+namespace {
+
+/// Whether a check of the motion ended the run, and not a step.
+bool isEndedByMotion(Outcome outcome) {
+    return outcome == Outcome::lost || outcome == Outcome::underResolved;
+}
+
+}  // namespace
 
 bool Recording::seeEvents(EventWatch& watch, const Stretch& stretch) {
     if (stretch.isStart) {
@@ -119,7 +127,8 @@ std::vector<MarchSink> Recording::sinksFor(std::optional<EventWatch>& watch,
         };
     };
     sinks.push_back({beforeStop(observe), false, readsQuantities,
-                     [this, &motion](const NodeBlock& nodes) { return soundNodes(nodes, motion); }});
+                     [this, &motion](const NodeBlock& nodes) { return soundNodes(nodes, motion); },
+                     [this, &motion] { followSwitches(motion); }});
     sinks.push_back(
         {beforeStop([this, isDense](const Stretch& stretch) { recordRows(stretch, isDense); }), isDense});
     if (recordsSteps())
@@ -159,8 +168,8 @@ void Recording::run(const std::function<void()>& publish, SchemeCheckpoint* file
     const bool isDense = scene.isDense && scene.every;
     std::optional<EventWatch> watch;
     if (!scene.events.empty() && stateWidth > 0) {
-        const auto make = [this](const State& start) { return scheme.make(system, step, start); };
-        watch.emplace(result, scene, system, make);
+        const auto make = [this](const System& s, const State& at) { return scheme.make(s, step, at); };
+        watch.emplace(result, scene, system, make, switching);
     }
     std::optional<InsideStep> inside;
     if (stateWidth > 0)  // else no row holds a state
@@ -208,7 +217,7 @@ void Recording::run(const std::function<void()>& publish, SchemeCheckpoint* file
     }
     if (isCutShort) report.outcome = Outcome::stopped;
     MarchGrid taken = grid;
-    if (report.outcome == Outcome::lost) taken.steps = std::min(grid.steps, state.node);
+    if (isEndedByMotion(report.outcome)) taken.steps = std::min(grid.steps, state.node);
     if (stopped) {
         taken.steps = std::min(grid.steps, state.node);
         taken.end = state.t;
@@ -219,7 +228,7 @@ void Recording::run(const std::function<void()>& publish, SchemeCheckpoint* file
     }
     if (fresh && report.outcome != Outcome::stopped && report.cpuSeconds < shortRuns)
         if (const Timing timing = timeRuns(*fresh, initialNode, taken, report.cpuSeconds, shortRun, stop,
-                                           report.outcome == Outcome::lost ? &freshMotion : nullptr);
+                                           isEndedByMotion(report.outcome) ? &freshMotion : nullptr);
             std::isfinite(timing.fastest))
             report.cpuSeconds = std::min(report.cpuSeconds, timing.fastest);
     if (stopped)

@@ -56,7 +56,7 @@ public:
 private:
     const typed::Tape& gradient_;
     std::size_t d_;
-    std::vector<Interval> registers_;
+    std::vector<RealInterval> registers_;
     std::vector<std::vector<double>> states_;  ///< (q, v)
     double momentum_ = 0;
 };

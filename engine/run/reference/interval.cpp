@@ -15,50 +15,52 @@ using typed::Instruction;
 using typed::Op;
 
 /// What is not a number, as infinity minus infinity, may be anything.
-Interval ordered(double a, double b) {
-    if (std::isnan(a) || std::isnan(b)) return Interval::all();
+RealInterval ordered(double a, double b) {
+    if (std::isnan(a) || std::isnan(b)) return RealInterval::all();
     return {std::min(a, b), std::max(a, b)};
 }
 
-Interval sum(const Interval& a, const Interval& b) { return ordered(a.low + b.low, a.high + b.high); }
-Interval negative(const Interval& a) { return {-a.high, -a.low}; }
+RealInterval sum(const RealInterval& a, const RealInterval& b) {
+    return ordered(a.low + b.low, a.high + b.high);
+}
+RealInterval negative(const RealInterval& a) { return {-a.high, -a.low}; }
 
 /// 0 times infinity is 0: what is bounded by infinity is not infinite.
 double productOf(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
-Interval product(const Interval& a, const Interval& b) {
+RealInterval product(const RealInterval& a, const RealInterval& b) {
     const double all[] = {productOf(a.low, b.low), productOf(a.low, b.high), productOf(a.high, b.low),
                           productOf(a.high, b.high)};
     return {*std::min_element(std::begin(all), std::end(all)),
             *std::max_element(std::begin(all), std::end(all))};
 }
 
-Interval square(const Interval& a) {
+RealInterval square(const RealInterval& a) {
     const double low = a.low * a.low, high = a.high * a.high;
     const bool hasZero = a.low <= 0 && a.high >= 0;
     return {hasZero ? 0 : std::min(low, high), std::max(low, high)};
 }
 
-Interval reciprocal(const Interval& a) {
-    if (a.low <= 0 && a.high >= 0) return Interval::all();
+RealInterval reciprocal(const RealInterval& a) {
+    if (a.low <= 0 && a.high >= 0) return RealInterval::all();
     return ordered(1 / a.high, 1 / a.low);
 }
 
 /// cos: its largest value at whole turns, its smallest between.
-Interval cosine(const Interval& a) {
+RealInterval cosine(const RealInterval& a) {
     constexpr double turn = 2 * std::numbers::pi;
     if (!(a.width() < turn)) return {-1, 1};
-    Interval c = ordered(std::cos(a.low), std::cos(a.high));
+    RealInterval c = ordered(std::cos(a.low), std::cos(a.high));
     if (std::floor(a.high / turn) > std::floor(a.low / turn) || std::fmod(a.low, turn) == 0) c.high = 1;
     if (std::floor(a.high / turn - 0.5) > std::floor(a.low / turn - 0.5)) c.low = -1;
     return c;
 }
-Interval sine(const Interval& a) {
+RealInterval sine(const RealInterval& a) {
     constexpr double quarter = std::numbers::pi / 2;
     return cosine({a.low - quarter, a.high - quarter});
 }
 
-Interval callOneOver(Function function, const Interval& a) {
+RealInterval callOneOver(Function function, const RealInterval& a) {
     const auto rising = [&] {
         return ordered(typed::detail::callOne(function, a.low), typed::detail::callOne(function, a.high));
     };
@@ -68,15 +70,15 @@ Interval callOneOver(Function function, const Interval& a) {
         case Function::cos:
             return cosine(a);
         case Function::abs:
-            return a.low <= 0 && a.high >= 0 ? Interval{0, std::max(-a.low, a.high)}
+            return a.low <= 0 && a.high >= 0 ? RealInterval{0, std::max(-a.low, a.high)}
                                              : ordered(std::fabs(a.low), std::fabs(a.high));
         case Function::cosh: {
-            Interval c = rising();
+            RealInterval c = rising();
             if (a.low <= 0 && a.high >= 0) c.low = 1;
             return c;
         }
         case Function::log:
-            return a.low > 0 ? rising() : Interval::all();
+            return a.low > 0 ? rising() : RealInterval::all();
         case Function::exp:
         case Function::atan:
         case Function::sinh:
@@ -92,15 +94,15 @@ Interval callOneOver(Function function, const Interval& a) {
             return rising();
         case Function::asin:
         case Function::acos:
-            return a.low >= -1 && a.high <= 1 ? rising() : Interval::all();
+            return a.low >= -1 && a.high <= 1 ? rising() : RealInterval::all();
         default:
-            return Interval::all();
+            return RealInterval::all();
     }
 }
 
-Interval callTwoOver(Function function, const Interval& a, const Interval& b) {
+RealInterval callTwoOver(Function function, const RealInterval& a, const RealInterval& b) {
     const auto truth = [](bool isSure, bool isPossible) {
-        return Interval{isSure ? 1.0 : 0.0, isPossible ? 1.0 : 0.0};
+        return RealInterval{isSure ? 1.0 : 0.0, isPossible ? 1.0 : 0.0};
     };
     switch (function) {
         case Function::max:
@@ -113,23 +115,23 @@ Interval callTwoOver(Function function, const Interval& a, const Interval& b) {
             return truth(a.high <= b.low, a.low <= b.high);
         case Function::power:
             // Of a positive base it is monotone in each: its extremes are at corners.
-            if (!(a.low > 0)) return Interval::all();
+            if (!(a.low > 0)) return RealInterval::all();
             return {std::min({std::pow(a.low, b.low), std::pow(a.low, b.high), std::pow(a.high, b.low),
                               std::pow(a.high, b.high)}),
                     std::max({std::pow(a.low, b.low), std::pow(a.low, b.high), std::pow(a.high, b.low),
                               std::pow(a.high, b.high)})};
         default:
-            return Interval::all();
+            return RealInterval::all();
     }
 }
 
 }  // namespace
 
-void enclose(const typed::Tape& tape, Interval* r) {
-    Interval* constant = r + tape.inputs();
+void enclose(const typed::Tape& tape, RealInterval* r) {
+    RealInterval* constant = r + tape.inputs();
     for (const double value : tape.constants()) *constant++ = {value, value};
     for (const Instruction& i : tape.code()) {
-        const Interval a = r[i.a];
+        const RealInterval a = r[i.a];
         // Of some instructions b and c are numbers of functions, and not of registers.
         const auto b = [&] { return r[i.b]; };
         const auto c = [&] { return r[i.c]; };
@@ -160,8 +162,8 @@ void enclose(const typed::Tape& tape, Interval* r) {
                 r[i.to] = reciprocal(a);
                 break;
             case Op::sqrt:
-                r[i.to] = a.high >= 0 ? Interval{std::sqrt(std::max(a.low, 0.0)), std::sqrt(a.high)}
-                                      : Interval::all();
+                r[i.to] = a.high >= 0 ? RealInterval{std::sqrt(std::max(a.low, 0.0)), std::sqrt(a.high)}
+                                      : RealInterval::all();
                 break;
             case Op::sinCos:
                 r[i.to] = sine(a);
@@ -182,7 +184,7 @@ void enclose(const typed::Tape& tape, Interval* r) {
                     r[i.to] = {std::min(b().low, c().low), std::max(b().high, c().high)};
                 break;
             case Op::lookUp:
-                r[i.to] = Interval::all();
+                r[i.to] = RealInterval::all();
                 break;
         }
     }

@@ -16,15 +16,15 @@
 
 namespace extremal {
 
-struct Interval {
+struct RealInterval {
     double low = 0, high = 0;
-    static Interval all() {
+    static RealInterval all() {
         return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     }
     double width() const { return high - low; }
 };
 
 /// `r` has registers() entries and the inputs in front; afterwards output(i, r) encloses root i.
-void enclose(const typed::Tape& tape, Interval* r);
+void enclose(const typed::Tape& tape, RealInterval* r);
 
 }  // namespace extremal

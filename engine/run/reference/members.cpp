@@ -12,6 +12,7 @@
 #include "engine/core/text/text.hpp"
 #include "engine/core/thread_clock.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/parts/parameter_switching.hpp"
 #include "engine/model/conservative.hpp"
 #include "engine/run/reference/force_pulses.hpp"
 #include "engine/run/reference/landed_solution.hpp"
@@ -26,6 +27,7 @@ struct Member {
     std::function<ExactSolution()> make;
     std::vector<double> states;  ///< at the times that are compared; empty: it did not get there
     double energyError = 0;      ///< the largest; 0 where no energy is conserved
+    double tolerance = 0;        ///< of a code with error control
 };
 
 /// How far two members are apart at the times, without those behind the first that is not known.
@@ -52,17 +54,19 @@ public:
     double size() const { return size_ > 0 ? size_ : measure_.scale; }
 
     /// A code with error control; empty where it is not there, or does not take the system.
-    std::optional<Member> controlled(std::initializer_list<const char*> ids,
-                                     const std::vector<double>& ends) {
+    std::optional<Member> controlled(std::initializer_list<const char*> ids, const std::vector<double>& ends,
+                                     double tolerance = 1e-13) {
         for (const char* id : ids) {
             const BaselineEntry* const entry = findBaseline(id);
             if (!entry || !canIntegrate(*entry, system_)) continue;
-            MakeStepper make = [entry, system = system_, start = scene_.initial, stop = stop_] {
-                constexpr double tolerance = 1e-13;
-                BaselineOptions options;
-                options.start = start;
-                options.tolerance = tolerance;
-                auto integrator = entry->make(system, options);
+            MakeStepper make = [entry, system = system_, start = scene_.initial, stop = stop_, tolerance] {
+                const auto made = [entry, tolerance](const System& present, const State& from) {
+                    BaselineOptions options;
+                    options.start = from;
+                    options.tolerance = tolerance;
+                    return entry->make(present, options);
+                };
+                auto integrator = withSwitchedParameters(system, start, made);
                 integrator->setStop(stop);
                 return integrator;
             };
@@ -71,7 +75,7 @@ public:
             } catch (const InvalidScene&) {
                 continue;  // its library is not there
             }
-            Member member{id, landed(make, scene_.initial, ends), {}, 0};
+            Member member{id, landed(make, scene_.initial, ends), {}, 0, tolerance};
             if (times_.empty()) {
                 if (!march(make, ends, member)) continue;
             } else {
@@ -249,7 +253,7 @@ Confirmation confirmation(const ReferencePair& pair, const ResolvedScene& scene,
 }
 
 void confirmReference(Reference& reference, const ResolvedScene& scene, const std::stop_token& stop) {
-    constexpr double doubtful = 1e-6;
+    constexpr double doubtful = 1e-6, coarse = 1e-10, finest = 1e-15;
     const System& system = *scene.system;
     const bool isForwards = scene.scene.end.value > scene.scene.start.value;
     if (!system.hasCoordinates() || system.error.evaluate || !isForwards) return;
@@ -269,6 +273,18 @@ void confirmReference(Reference& reference, const ResolvedScene& scene, const st
     if (!isMissing) all.push_back(&a);
     if (b) all.push_back(&*b);
     std::optional<Pair> best = nearestOf(members, all);
+    // Most of the distance is the error of B where that is not round-off yet.
+    std::optional<Member> finer;
+    if (best && b && !isMissing && Confirmation::safety * best->distance.end() > coarse * members.size() &&
+        !stop.stop_requested()) {
+        finer = members.controlled({b->name.c_str()}, pulses.ends, finest);
+        const bool isThere =
+            finer && std::isfinite(finer->energyError) && std::isfinite(finer->states.back());
+        if (isThere && members.between(a, *finer).end() < best->distance.end()) {
+            all.back() = &*finer;
+            best = nearestOf(members, all);
+        }
+    }
     std::optional<Member> c;
     const bool isDoubtful = !best || Confirmation::safety * best->distance.end() > doubtful * members.size();
     if (b && isDoubtful && !stop.stop_requested()) {
@@ -282,7 +298,8 @@ void confirmReference(Reference& reference, const ResolvedScene& scene, const st
     if (best->chosen != &a) {
         reference.make = best->chosen->make;
         reference.info.type = "computed";
-        reference.info.description = best->chosen->name + ", tolerance 1e-13";
+        reference.info.description =
+            best->chosen->name + ", tolerance " + formatNumber(best->chosen->tolerance);
         reference.info.estimatedError = Confirmation::safety * best->distance.end();
         reference.info.problems.clear();
     }

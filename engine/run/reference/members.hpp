@@ -2,7 +2,8 @@
 /// References that can be trusted: a computed reference beside methods of other kinds, on steps of their own.
 ///
 ///     A   collocation of fixed steps (the computed reference)
-///     B   the explicit pair rk8pd, else fehlberg78, at a tolerance of 1e-13
+///     B   the explicit pair rk8pd, else fehlberg78, at a tolerance of 1e-13; where A and B part by more than
+///         round-off explains, at 1e-15 in its place, so that its own error is not taken for that of A
 ///     C   the extrapolation code bulirsch-stoer at 1e-13, where A and B part or one of them failed
 ///
 /// Two step sizes of one method are no pair: they may err to the same side. The nearest pair of different

@@ -11,13 +11,16 @@
 #include "engine/family/parts/steps.hpp"
 #include "engine/mechanism/mechanism_start.hpp"
 #include "engine/model/parts/force.hpp"
+#include "engine/model/parts/varied_numbers.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/phase/monitored.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/outlook/companion.hpp"
 #include "engine/scene/outlook/cost.hpp"
 #include "engine/scene/outlook/local_errors.hpp"
 #include "engine/scene/outlook/premise.hpp"
 #include "engine/scene/outlook/scheme_stability.hpp"
+#include "engine/scene/outlook/sensitivities.hpp"
 #include "engine/scene/outlook/two_positions.hpp"
 #include "engine/scene/read/pointer.hpp"
 #include "engine/scene/read/read_parts.hpp"
@@ -182,19 +185,37 @@ void checkKinks(Reader& reader, const ResolvedScene& scene, const ResolvedScheme
                    "steps that end at the times of the table", {}, "table-bends");
 }
 
+/// What is known to be doubtful of steps that follow a monitor.
+void checkMonitor(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
+                  const std::string& pointer) {
+    const Settings& settings = scheme.spec.monitor;
+    const auto monitor = makeMonitor(settings, *scene.system, hamiltonianFrom(*scene.system));
+    if (!isEven(*monitor, scene.initial))
+        reader.warning(pointer + "/monitor",
+                       "is not reversible: it changes when all momenta change their sign, so that a motion "
+                       "that turns back takes other steps",
+                       "a function of coordinates and of even powers of momenta", {}, "monitors");
+    if (settings.type == "arclength" && scheme.claims.order > 2)
+        reader.warning(pointer + "/monitor",
+                       "gains little at order " + std::to_string(scheme.claims.order) +
+                           ": steps of equal length are long where the motion is fast",
+                       "auto, or a typed one", {}, "monitors");
+}
+
 /// Of its family or its baseline, what stands against its step.
 void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
     if (scheme.isAdaptive()) return;
     const SchemeCase at = caseOf(scene, scheme);
     Findings findings;
+    if (scheme.isMonitored()) return checkMonitor(reader, scene, scheme, pointer);
     const auto* const own = scheme.baseline ? scheme.baseline->parts.find<StepCheck>() : nullptr;
     if (own)
         own->check(at, findings);
-    else if (linearTestOf(*scene.system) == LinearTest::oscillator)
+    else if (!scheme.isTested() && linearTestOf(*scene.system) == LinearTest::oscillator)
         checkStability(at, scheme, findings);
     if (!scheme.properties.caution.empty()) findings.warning("", scheme.properties.caution);
-    if (scheme.family) scheme.family->check(at, findings);
+    if (scheme.family && !scheme.isTested()) scheme.family->check(at, findings);
     reader.add(pointer, findings);
 }
 
@@ -227,10 +248,20 @@ void checkLocalErrors(Reader& reader, const Scene& scene, const ResolvedScheme& 
                        "another scheme, or do not observe them", {}, "local-errors");
 }
 
+/// Derivatives by numbers, where they are observed and the scheme has none.
+void checkSensitivities(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
+                        const Integrator& integrator, double step, const std::string& pointer) {
+    if (!systemOf(scene, scheme)->parts.find<VariedNumbers>() || integrator.tangentSize() == 0) return;
+    const std::string problem = sensitivityProblem(scene, scheme, integrator, step, initialOf(scene, scheme));
+    if (!problem.empty())
+        reader.warning(pointer, "has not all sensitivities: " + problem + "; such columns stay empty for it",
+                       "other numbers in /sensitivity, or another scheme", {}, "sensitivity");
+}
+
 /// What is observed on the way back from the end, where the scheme has none.
 void checkWayBack(Reader& reader, const Scene& scene, const ResolvedScheme& scheme,
                   const std::string& pointer) {
-    if (scheme.isFixed()) return;
+    if (scheme.isFixed() || scheme.isMonitored()) return;
     for (const std::string& id : scene.observe)
         if (const ObservableEntry* entry = findObservable(id); entry && entry->needsWayBack)
             reader.warning(
@@ -251,6 +282,7 @@ void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
             checkTangent(reader, scene.scene, *integrator, pointer);
             checkLocalErrors(reader, scene.scene, scheme, *systemOf(scene, scheme), *integrator, pointer);
             checkWayBack(reader, scene.scene, scheme, pointer);
+            checkSensitivities(reader, scene, scheme, *integrator, step, pointer);
             schemeStart(scene, scheme, step);
             checkStep(reader, scene, scheme, pointer);
             checkKinks(reader, scene, scheme, pointer);
@@ -265,7 +297,7 @@ void checkScheme(Reader& reader, const ResolvedScene& scene, const ResolvedSchem
                  const std::string& pointer) {
     const std::size_t errorsBefore = reader.errors.size();
     const bool isTimeKnown = scene.scene.end.value != scene.scene.start.value;
-    if (isBackwards(scene.scene) && scheme.grid == TimeGrid::free)
+    if (isBackwards(scene.scene) && scheme.grid == TimeGrid::free && !scheme.isMonitored())
         reader.error(pointer,
                      "cannot run backwards in time, because the steps are its unknowns, and positive",
                      "a scheme with given steps or under error control, or an end after the start");

@@ -8,6 +8,7 @@
 #include "engine/integrator/composition.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/phase/monitor.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/read/json.hpp"
@@ -77,6 +78,7 @@ std::vector<std::string> schemeKeys(const Value& object, const std::vector<std::
     if (inScheme.size() > 1) return {};
     if (inScheme[0] == "space") return typedKeys(object, spaceCatalog());
     if (inScheme[0] == "baseline") return typedKeys(object, baselineCatalog());
+    if (inScheme[0] == "monitor") return typedKeys(object, monitorCatalog());
     if (inScheme[0] == "composition") return typedKeys(object, compositionCatalog());
     return inScheme[0] == "solver" ? format::solver : std::vector<std::string>{};
 }

@@ -3,6 +3,7 @@
 
 #include "engine/core/text/indexed.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/parts/named_start.hpp"
 #include "engine/model/parts/written_form.hpp"
 #include "engine/scene/outlook/two_positions.hpp"
 #include "engine/scene/read/json.hpp"
@@ -94,15 +95,20 @@ std::vector<Number> literals(const std::vector<double>& values) {
 /// Keys of the model's own; the system says what is wrong with them together.
 void readGiven(Reader& reader, const Value* initial, const System& system, const ModelEntry& entry,
                double start, Initial& result) {
+    const NamedStart* const own = system.parts.find<NamedStart>();
+    const std::vector<FieldInfo>& fields = own ? own->fields : entry.initial;
     Reader quiet;
-    readFields(quiet, entry.exampleInitial, "/initial", entry.initial, {}, result.given);
-    if (!initial && entry.initial.empty()) return;  // nothing to say
+    readFields(quiet, entry.exampleInitial, "/initial", fields, {}, result.given);
+    if (!initial && fields.empty()) return;  // nothing to say
     if (!initial) return reader.warning("/initial", "is missing: the run starts from the model's example");
     if (!reader.isObject(*initial, "/initial")) return;
     Settings given;
-    if (!readFields(reader, *initial, "/initial", entry.initial, {}, given)) return;
+    if (!readFields(reader, *initial, "/initial", fields, {}, given)) return;
     try {
         system.start(given, start);
+        if (own)
+            for (const Problem& p : own->notes(given))
+                reader.warning("/initial" + p.pointer, p.message, p.hint);
         result.given = std::move(given);
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error("/initial" + p.pointer, p.message, p.hint);

@@ -4,10 +4,12 @@
 #include <fstream>
 
 #include "engine/core/text/text.hpp"
+#include "engine/model/parts/varied_numbers.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/outlook/varied_scene.hpp"
 #include "engine/scene/read/pointer.hpp"
 #include "engine/scene/read/read_parts.hpp"
 #include "engine/scene/write/format.hpp"
@@ -174,6 +176,36 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
     if (contains(scene.observe, "error") && scene.reference.kind == ReferenceSpec::Kind::none)
         reader.warning("/observe", "requests the error, but there is no reference: the error remains unknown",
                        "set /reference to auto");
+}
+
+void readSensitivity(Reader& reader, const Value& document, System* system, Scene& scene) {
+    const Value* const given = document.find("sensitivity");
+    if (given && reader.isArray(*given, "/sensitivity", "pointers") &&
+        reader.hasAtMost(*given, "/sensitivity", "pointers", mostVariedNumbers))
+        for (std::size_t i = 0; i < given->asArray().size(); ++i) {
+            const std::string place = childPointer("/sensitivity", i);
+            const auto pointer = reader.text(given->asArray()[i], place);
+            if (!pointer || !system) continue;
+            const std::string problem = variedNumberProblem(scene, *system, *pointer);
+            if (!problem.empty())
+                reader.error(place, *pointer + " " + problem,
+                             "\"/model/parameters/<name>\", \"/initial/q/0\", \"/model/lagrangian/<term>\"");
+            else if (contains(scene.sensitivity, *pointer))
+                reader.error(place, "\"" + *pointer + "\" is listed twice", "keep one of them");
+            else
+                scene.sensitivity.push_back(*pointer);
+        }
+    if (given && !contains(scene.observe, "sensitivity"))
+        reader.warning("/sensitivity", "lists numbers, but sensitivity is not observed",
+                       "add it to /observe");
+    if (!system) return;
+    nameVariedNumbers(*system, scene);
+    const auto* const named = system->parts.find<VariedNumbers>();
+    if (named && named->all.size() > mostVariedNumbers)
+        reader.error("/observe",
+                     "sensitivity has " + std::to_string(named->all.size()) + " parameters, the limit is " +
+                         std::to_string(mostVariedNumbers),
+                     "list some of them in /sensitivity");
 }
 
 }  // namespace extremal

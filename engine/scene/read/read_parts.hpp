@@ -39,6 +39,8 @@ void readReference(Reader& reader, const Value& document, const std::string& dir
 void readTime(Reader& reader, const Value& document, Scene& scene);
 void readOutput(Reader& reader, const Value& document, Scene& scene);
 void readObserve(Reader& reader, const Value& document, const System* system, Scene& scene);
+/// After the initial data: names the numbers of the system, where sensitivities are observed.
+void readSensitivity(Reader& reader, const Value& document, System* system, Scene& scene);
 void readEvents(Reader& reader, const Value& document, const System* system, Scene& scene);
 void readViews(Reader& reader, const Value& document, const System* system, Scene& scene);
 

@@ -8,8 +8,11 @@
 #include "engine/core/text/text.hpp"
 #include "engine/core/work.hpp"
 #include "engine/family/parts/steps.hpp"
+#include "engine/family/parts/test_space.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/composition.hpp"
+#include "engine/phase/kept_step.hpp"
+#include "engine/phase/monitor.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/read/json.hpp"
 #include "engine/scene/read/pointer.hpp"
@@ -217,6 +220,70 @@ void readComposition(Reader& reader, const Value& value, const std::string& poin
     spec.composition = *composition;
 }
 
+/// What the steps keep: "symplectic", which is left out, "energy", or a list of invariants.
+void readKeep(Reader& reader, const Value& value, const std::string& pointer, SchemeSpec& spec) {
+    if (value == Value("symplectic")) return;
+    if (!value.isArray() && !(value == Value("energy")))
+        return reader.error(pointer,
+                            "must be \"symplectic\", \"energy\" or a list, got " + describeValue(value),
+                            R"(for example ["energy", "x*p_y-y*p_x"])");
+    const auto discretization = discretizationOf(spec);
+    const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
+    if (!family || !family->parts.find<TestSpace>())
+        return reader.error(pointer, "is a choice of schemes with a space of polynomials",
+                            "for example \"scheme\": \"galerkin-gauss-2\"");
+    const Value::Array all = value.isArray() ? value.asArray() : Value::Array{value};
+    if (all.empty() || all.size() > mostInvariants)
+        return reader.error(pointer, "must have 1 to " + std::to_string(mostInvariants) +
+                                         " invariants, got " + std::to_string(all.size()));
+    std::vector<KeptQuantity> kept;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::string place = value.isArray() ? childPointer(pointer, i) : pointer;
+        const auto text = reader.text(all[i], place);
+        if (!text) return;
+        const bool isNamed =
+            *text == "energy" || text->starts_with("momentum.") || text->starts_with("casimir.");
+        const auto formula = isNamed ? text : reader.formula(*text, place, reader.stateNames);
+        if (!formula) return;
+        kept.push_back({*text, *formula});
+    }
+    spec.keep = std::move(kept);
+}
+
+/// What the steps follow: a function of the state, or the name of an automatic one.
+void readMonitor(Reader& reader, const Value& value, const std::string& pointer, SchemeSpec& spec) {
+    if (!spec.keep.empty())
+        return reader.error(pointer,
+                            "has energies in another time, in which the invariants are not what is asked for",
+                            "one of monitor and keep");
+    if (resolve(spec).grid != TimeGrid::fixed)
+        return reader.error(pointer, "has nothing to choose: the times of the scheme are unknowns already",
+                            "a scheme with a fixed step, or no monitor");
+    std::vector<CatalogItem> items = monitorCatalog();
+    std::vector<std::string> names = reader.stateNames;
+    for (CatalogItem& item : items)
+        for (FieldInfo& field : item.parameters)
+            if (field.type == FieldType::definitions) field.components = names;
+    const bool isFormula = value.isString() && std::none_of(items.begin(), items.end(), [&](const auto& i) {
+                               return i.id == value.asString();
+                           });
+    const Value object =
+        isFormula ? Value(Value::Object{{"type", items.front().id}, {"monitor", value}}) : value;
+    auto monitor = readSettings(reader, object, pointer, "monitor", itemsOf(items));
+    if (!monitor) return;
+    if (const Value* let = monitor->find("let"))
+        for (const auto& [name, meaning] : let->asObject()) names.push_back(name);
+    for (auto& [key, written] : monitor->keys) {
+        if (key != "monitor") continue;
+        const std::string text = written.asString();
+        const auto read = reader.formula(text, isFormula ? pointer : childPointer(pointer, key), names);
+        if (!read) return;
+        if (*read != text) monitor->expressions.emplace_back(key, text);
+        written = *read;
+    }
+    spec.monitor = *std::move(monitor);
+}
+
 /// The step that follows from the space, with the parameters of the model.
 std::optional<ImpliedStep> impliedStepOf(const Reader& reader, const SchemeSpec& spec) {
     const auto discretization = discretizationOf(spec);
@@ -285,9 +352,18 @@ std::string innerLabel(const SchemeSpec& scheme) {
     return text(scheme.space, "degree") + basis + ", " + rule;
 }
 
+std::string keptNames(const SchemeSpec& scheme) {
+    std::vector<std::string> names;
+    for (const KeptQuantity& each : scheme.keep) names.push_back(each.text);
+    return joinNames(names);
+}
+
 std::string partsLabel(const SchemeSpec& scheme) {
-    const Settings& c = scheme.composition;
-    return innerLabel(scheme) + (c.type.empty() ? "" : ", " + c.type + " " + formatNumber(c.number("order")));
+    const Settings &c = scheme.composition, &m = scheme.monitor;
+    return innerLabel(scheme) +
+           (c.type.empty() ? "" : ", " + c.type + " " + formatNumber(c.number("order"))) +
+           (scheme.keep.empty() ? "" : ", keeps " + keptNames(scheme)) +
+           (m.type.empty() ? "" : ", monitored");
 }
 
 }  // namespace
@@ -310,9 +386,13 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
             spec.style = static_cast<int>(n->value) - 1;
     const bool isKindKnown = readKind(reader, value, pointer, spec);
     const BaselineEntry* baseline = findBaseline(spec.baseline.type);
+    if (const Value* keep = value.find("keep"); keep && isKindKnown)
+        readKeep(reader, *keep, childPointer(pointer, "keep"), spec);
     if (const Value* composition = value.find("composition"); composition && isKindKnown)
         readComposition(reader, *composition, childPointer(pointer, "composition"),
                         baseline && baseline->isAdaptive(), spec);
+    if (const Value* monitor = value.find("monitor"); monitor && isKindKnown)
+        readMonitor(reader, *monitor, childPointer(pointer, "monitor"), spec);
     if (isKindKnown || value.find("step"))
         readStep(reader, value, pointer, baseline && baseline->isAdaptive(), spec);
     readSolver(reader, value, childPointer(pointer, "solver"), spec);

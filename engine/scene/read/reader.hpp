@@ -16,6 +16,7 @@
 #include "engine/core/settings.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/family/findings.hpp"
+#include "engine/model/system.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace extremal {
@@ -39,8 +40,9 @@ public:
     /// Parameters of the model that expressions may use. A parameter whose own value is wrong, and already
     /// reported, is there without a value: what depends on it is not reported again.
     std::map<std::string, std::optional<double>, std::less<>> parameters;
-    Settings model;                ///< as read; no type: it is wrong
-    bool hasUnknownModel = false;  ///< no name can be judged
+    Settings model;                       ///< as read; no type: it is wrong
+    bool hasUnknownModel = false;         ///< no name can be judged
+    std::vector<std::string> stateNames;  ///< of the model, where it has them: what formulas of states are of
 
     /// Each returns an empty result after recording an error.
     std::optional<Number> number(const Value& value, const std::string& pointer, const Limits& limits);

@@ -8,6 +8,7 @@
 #include "engine/core/library_exceptions.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/core/work.hpp"
+#include "engine/phase/invariants.hpp"
 #include "engine/scene/outlook/lesson_steps.hpp"
 #include "engine/scene/outlook/topics.hpp"
 #include "engine/scene/read/json.hpp"
@@ -15,6 +16,7 @@
 #include "engine/scene/read/pointer.hpp"
 #include "engine/scene/read/read_parts.hpp"
 #include "engine/scene/reflections.hpp"
+#include "engine/scene/switches.hpp"
 #include "engine/scene/write/format.hpp"
 
 namespace extremal {
@@ -63,8 +65,12 @@ void readParts(Reader& reader, const Value& document, const std::string& directo
         return readModel(reader, document, scene);
     }();
     const System* model = system ? &*system : nullptr;
+    if (model) reader.stateNames = namesInState(*model);
     readEvents(reader, document, model, scene);
-    if (system) addReflections(*system, scene.events);
+    if (system) {
+        addReflections(*system, scene.events);
+        addSwitches(*system, scene);
+    }
     if (model) readInitial(reader, document, *model, scene);
     readTime(reader, document, scene);
     const auto places = readSchemes(reader, document, scene);
@@ -72,6 +78,7 @@ void readParts(Reader& reader, const Value& document, const std::string& directo
     readReference(reader, document, directory, scene);
     readOutput(reader, document, scene);
     readObserve(reader, document, model, scene);
+    readSensitivity(reader, document, system ? &*system : nullptr, scene);
     readViews(reader, document, model, scene);
     readLessonSteps(reader, document, scene);
     ResolvedScene resolved = resolveParts(scene, model, places);

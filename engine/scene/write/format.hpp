@@ -8,15 +8,16 @@
 namespace extremal::format {
 
 inline const std::vector<std::string> root = {
-    "$schema", "extremal",  "title",   "source", "lesson", "notes", "model",  "initial", "time",
-    "schemes", "reference", "observe", "events", "output", "views", "limits", "steps"};
+    "$schema", "extremal",  "title",   "source",      "lesson", "notes",  "model", "initial", "time",
+    "schemes", "reference", "observe", "sensitivity", "events", "output", "views", "limits",  "steps"};
 inline const std::vector<std::string> lessonStep = {"text", "scheme", "view", "time", "set", "until"};
 inline const std::vector<std::string> goal = {"above", "below"};
 inline const std::vector<std::string> time = {"start", "end"};
 inline const std::vector<std::string> initial = {"q", "p", "v", "q1", "at", "project"};
 inline const std::vector<std::string> directions = {"both", "up", "down"};
-inline const std::vector<std::string> actions = {"write", "count", "stop", "reflect"};
-inline const std::vector<std::string> event = {"expression", "label", "direction", "action", "restitution"};
+inline const std::vector<std::string> actions = {"write", "count", "stop", "reflect", "switch"};
+inline const std::vector<std::string> event = {"expression",  "label",     "direction", "action",
+                                               "restitution", "parameter", "value"};
 inline const std::vector<std::string> output = {"every", "dense"};
 inline const std::vector<std::string> limits = {"steps"};
 inline const std::vector<std::string> reference = {"type", "scheme", "path"};
@@ -28,9 +29,9 @@ inline const std::vector<std::string> plainReferences = {"auto", "exact", "compa
 inline const std::vector<std::string> view = {"view", "x",     "y",     "at",     "scheme",
                                               "node", "range", "curve", "starts", "spread"};
 inline const std::vector<std::string> range = {"x", "y"};
-inline const std::vector<std::string> scheme = {"label",  "enabled",        "step",        "tolerance",
-                                                "space",  "quadrature",     "baseline",    "scheme",
-                                                "solver", "allow_unstable", "composition", "style"};
+inline const std::vector<std::string> scheme = {
+    "label",  "enabled", "step",           "tolerance",   "space", "quadrature", "baseline",
+    "scheme", "solver",  "allow_unstable", "composition", "keep",  "monitor",    "style"};
 inline const std::vector<std::string> solver = {"method", "tolerance", "max_iterations"};
 
 }  // namespace extremal::format

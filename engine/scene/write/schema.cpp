@@ -11,6 +11,7 @@
 #include "engine/integrator/composition.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/phase/monitor.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/write/format.hpp"
@@ -194,6 +195,11 @@ Value schemeDefinition() {
     p.set("baseline", typedChoice(baselineCatalog()));
     p.set("scheme", namedSchemes());
     p.set("composition", typedChoice(compositionCatalog()));
+    p.set("keep", anyOf({enumeration({"symplectic", "energy"}), arrayOf(typed("string"))}));
+    p.set(
+        "monitor",
+        anyOf({typedChoice(monitorCatalog()),
+               typed("string", "An expression in coordinates and momenta: steps are in proportion to it.")}));
     p.set("solver", object(solver, {}));
     p.set("allow_unstable", typed("boolean", "Accept a discretization that is unstable for every step."));
     return object(p, {}, "A row of the comparison: a space and a quadrature, a baseline, or a named scheme.");
@@ -211,9 +217,12 @@ Value initialData() {
     for (const ModelEntry& entry : modelCatalog())
         for (const FieldInfo& field : entry.initial)
             if (!p.find(field.key)) p.set(field.key, property(field));
-    return object(p, {},
-                  "Coordinates, and momenta, velocities or a second position (q1, a time `at` later); or the "
-                  "keys of the model.");
+    Value data = object(p, {},
+                        "Coordinates, and momenta, velocities or a second position (q1, a time `at` later); "
+                        "or the keys of the model.");
+    // Points on spheres, by names of the user's own.
+    data.set("additionalProperties", arrayOf(reference("number")));
+    return data;
 }
 
 Value referenceChoice() {
@@ -296,6 +305,11 @@ Value rootProperties() {
     p.set("schemes", schemes);
     p.set("reference", referenceChoice());
     p.set("observe", arrayOf(enumeration(idsOf(observableCatalog()))));
+    p.set("sensitivity",
+          arrayOf(
+              typed("string",
+                    "A number to differentiate motions by: \"/model/parameters/k\", \"/initial/q/0\", or the "
+                    "factor of a term, \"/model/lagrangian/<term>\".")));
     Value event{Value::Object{}};
     event.set("expression",
               typed("string",
@@ -305,6 +319,9 @@ Value rootProperties() {
     event.set("direction", enumeration(format::directions));
     event.set("action", enumeration(format::actions));
     event.set("restitution", typed("number", "Of reflect: the part of the speed that is left, 0 to 1."));
+    event.set("parameter",
+              typed("string", "Of switch: the parameter of the model that takes another value."));
+    event.set("value", reference("number"));
     p.set("events", arrayOf(anyOf({typed("string"), object(event, {"expression"})})));
     p.set("output", object(output, {}));
     p.set("views", arrayOf(viewChoice()));

@@ -69,6 +69,10 @@ Value eventValue(const EventSpec& event) {
     value.set("direction", format::directions[static_cast<std::size_t>(event.direction)]);
     value.set("action", format::actions[static_cast<std::size_t>(event.action)]);
     if (event.action == EventSpec::Action::reflect) value.set("restitution", event.restitution);
+    if (event.action == EventSpec::Action::change) {
+        value.set("parameter", event.parameter);
+        value.set("value", numberValue(event.value));
+    }
     return value;
 }
 
@@ -104,6 +108,11 @@ Value schemeValue(const SchemeSpec& scheme) {
             break;
     }
     if (!scheme.composition.type.empty()) value.set("composition", settingsValue(scheme.composition));
+    if (isEnergyAlone(scheme.keep))
+        value.set("keep", scheme.keep.front().text);
+    else if (!scheme.keep.empty())
+        value.set("keep", listOf(scheme.keep, [](const KeptQuantity& each) { return Value(each.text); }));
+    if (!scheme.monitor.type.empty()) value.set("monitor", settingsValue(scheme.monitor));
     value.set("solver", settingsValue(scheme.solver, "method"));
     value.set("allow_unstable", scheme.allowsUnstable);
     return value;
@@ -124,6 +133,9 @@ Value toValue(const Scene& scene) {
     value.set("schemes", listOf(scene.schemes, schemeValue));
     value.set("reference", referenceValue(scene.reference));
     value.set("observe", listOf(scene.observe, [](const std::string& name) { return Value(name); }));
+    if (!scene.sensitivity.empty())
+        value.set("sensitivity",
+                  listOf(scene.sensitivity, [](const std::string& pointer) { return Value(pointer); }));
     if (!scene.events.empty()) value.set("events", listOf(scene.events, eventValue));
     if (scene.every)
         value.set("output",

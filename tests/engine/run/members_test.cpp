@@ -308,7 +308,7 @@ private slots:
         const typed::Tape& tape = *typed::gradientTapeOf(m);
         std::mt19937 random(5);
         std::uniform_real_distribution<double> place(0, 4), length(0, 1), part(0, 1);
-        std::vector<Interval> r(tape.registers());
+        std::vector<RealInterval> r(tape.registers());
         double widest = 0;
         for (int i = 0; i < 2000; ++i) {
             const double a = place(random), b = a + length(random) * length(random), q = 0.7, v = 0.1;
@@ -316,7 +316,7 @@ private slots:
             r[1] = {v, v};
             r[2] = {a, b};
             enclose(tape, r.data());
-            const Interval force = tape.output(0, r.data());
+            const RealInterval force = tape.output(0, r.data());
             QVERIFY(std::isfinite(force.low) && std::isfinite(force.high));
             widest = std::max(widest, force.width());
             for (int k = 0; k < 5; ++k) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "engine/figure/figure.hpp"
+#include "engine/model/group/lie_group.hpp"
+#include "engine/model/group/spheres.hpp"
 #include "engine/model/field/problem.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/run.hpp"
@@ -41,9 +43,12 @@ std::string schemeFor(const System& system) {
     if (system.parts.find<StaticPart>()) return "free-knots";
     if (system.parts.find<Wave>()) return "schrodinger-gauss-1";
     if (system.parts.find<Membrane>()) return "asynchronous-dyadic";
+    if (system.parts.find<PlaneField>()) return "field-gauss-1";
     if (system.parts.find<ScalarField>())
         return system.fieldProblem().isBody ? "asynchronous-dyadic" : "multisymplectic-1";
-    return system.parts.find<Body>() ? "lie-2" : "galerkin-gauss-2";
+    const Parts& parts = system.parts;
+    const bool isOnGroup = parts.find<Body>() || parts.find<LieGroup>() || parts.find<Spheres>();
+    return isOnGroup ? "lie-2" : "galerkin-gauss-2";
 }
 
 Value::Array observablesOf(const System& system) {
@@ -145,7 +150,7 @@ private slots:
             "; kepler has amplification, basis, curve-error, discrete-energy, discrete-lagrangian, energy, "
             "error, "
             "floquet, "
-            "local-error, lyapunov, "
+            "local-error, loop, lyapunov, "
             "megno, mesh, modified-energy, momentum, monitor, multiplier, parameter-map, phase, "
             "reversibility, "
             "section, "
@@ -154,7 +159,7 @@ private slots:
             "stage, step, symplecticity, symplecticity-accumulated, trajectory, transported-error, volume "
             "and work-precision";
         QCOMPARE(hint("carpet"), "it needs a field or a wave function" + has);
-        QCOMPARE(hint("norm"), "it needs a wave function" + has);
+        QCOMPARE(hint("norm"), "it needs a wave function or spins" + has);
         QCOMPARE(hint("polhode"), "it needs a rigid body" + has);
         QCOMPARE(hint("fast-energy"), "it needs a fast oscillation of its own" + has);
         QCOMPARE(hint("shape-function"), "it needs the elliptic problem" + has);

@@ -38,8 +38,22 @@ std::vector<ViewEntry> errors_against_time() {
             "logarithmic",
             "multiplier", {"multiplier", "|λ|", 0}),
         row("norm", "Norm error",
-            "change of the norm of the wave function against time or steps, logarithmic", "norm",
-            {"norm_error", "|‖ψ‖ − ‖ψ(0)‖|", 1}),
+            "change of the norm of the wave function, or of the length of a spin, against time or steps, "
+            "logarithmic",
+            "norm", {"norm_error", "", 1}),
+        row("casimir", "Casimirs", "the largest change of a Casimir against time or steps, logarithmic",
+            "casimir", {"casimir_error", "max |C − C(0)|", 1}),
+        row("poisson-defect", "Defect of the bracket",
+            "largest entry of MJ₀Mᵀ − J₁ against time or steps, logarithmic; M is the tangent map of a step",
+            "poisson-defect", {"poisson_defect", "max |MJ₀Mᵀ − J₁|", 1}),
+        row("area", "Area of the form",
+            "by how much the steps so far have changed the area of a one-form, against time or steps, "
+            "logarithmic: round-off for symplectic steps, bounded or growing for others",
+            "area", {"area", "|ln (area / area(0))|", 1}),
+        row("loop", "Loop integral",
+            "|∮ θ − ∮ θ(0)| over a ring of starts that moves with the scheme, against time or steps, "
+            "logarithmic: round-off for symplectic steps as long as the ring is resolved",
+            "loop", {"loop_error", "|∮ θ − ∮ θ(0)|", 1}),
         row("reversibility", "There and back",
             "distance between the state of the run and that of a run back from its end, against time or "
             "steps, logarithmic",

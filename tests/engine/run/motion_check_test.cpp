@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Runs judge themselves: what has left the motion is lost, and nothing else is.
+/// Runs check their own motion: what has left the motion is lost, and nothing else is.
 #include <QTest>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 
-namespace extremal::judge_test {
+namespace extremal::motion_check_test {
 namespace {
 
 /// The result of the only scheme.
@@ -53,7 +53,7 @@ const std::string forced = R"json({"extremal":1,"model":{"type":"lagrangian","co
 
 }  // namespace
 
-class JudgeTest : public QObject {
+class MotionCheckTest : public QObject {
     Q_OBJECT
 private slots:
     /// Blocks are as long as the clock makes them: the verdict must not depend on that.
@@ -165,6 +165,6 @@ private slots:
     }
 };
 
-EXTREMAL_TEST(JudgeTest)
-}  // namespace extremal::judge_test
-#include "judge_test.moc"
+EXTREMAL_TEST(MotionCheckTest)
+}  // namespace extremal::motion_check_test
+#include "motion_check_test.moc"
