@@ -16,11 +16,17 @@ struct Arguments {
     CommonOptions common;
     RunVerbOptions run;
     SnapshotOptions snapshot;
+    FigureOptions figure;
+    PageOptions page;
     StudyOptions study;
     WisdomOptions wisdom;
     AtlasRunOptions atlas;
     PassportRequest passport;
     ProgramRequest program;
+    OrbitOptions orbit;
+    FitOptions fit;
+    GradientOptions gradient;
+    SteerOptions steer;
     FormulasRequest formulas;
 };
 

@@ -28,56 +28,6 @@ CLI::Validator numberIn(double least, double most) {
             },
             ""};
 }
-CLI::Validator finiteNumber() { return numberIn(-HUGE_VAL, HUGE_VAL); }
-
-/// The options that many verbs take, as far as this one does (option_table.hpp). Those of the program itself
-/// stand before a verb, which takes them or not.
-void addCommon(CLI::App& verb, CommonOptions& options) {
-    const bool isProgram = !verb.get_parent();
-    const auto isTaken = [&](const char* option) { return isProgram || takes(verb.get_name(), option); };
-    std::vector<CLI::Option*> added;
-    if (isTaken("--set"))
-        added.push_back(verb.add_option("--set", options.overrides,
-                                        "change a value of the scene: --set '/schemes/*/step=0.1'; "
-                                        "repeatable")
-                            ->type_name("POINTER=VALUE")
-                            ->expected(1)
-                            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
-    if (isTaken("--add"))
-        added.push_back(
-            verb.add_option("--add", options.added,
-                            "a scheme of your own, by its name in your catalogue or a file it was "
-                            "exported to; repeatable, before --set")
-                ->type_name("SCHEME")
-                ->expected(1)
-                ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
-    if (isTaken("--json"))
-        added.push_back(verb.add_flag("--json", options.isJson, "one JSON document on standard output"));
-    if (isTaken("--quiet")) added.push_back(verb.add_flag("--quiet", options.isQuiet, "errors only"));
-    if (isTaken("--trust"))
-        added.push_back(verb.add_flag("--trust", options.isTrusted,
-                                      "read files that the scene names outside its own folder"));
-    if (isTaken("--force"))
-        added.push_back(verb.add_flag("--force", options.isForced,
-                                      "replace files in --out that this program did not write"));
-    if (isTaken("--threads"))
-        added.push_back(
-            verb.add_option("--threads", options.threads, "threads to use, 1 to 1024; all cores by default")
-                ->type_name("N")
-                ->check(CLI::Range(1U, 1024U).description("")));
-    if (isProgram)
-        for (CLI::Option* option : added) option->group("Options of verbs, before or behind the verb");
-    verb.set_help_flag("--help,-h", "this text");
-}
-
-CLI::App& addVerb(CLI::App& app, Arguments& arguments, const char* name, const char* description,
-                  bool takesScene) {
-    CLI::App* verb = app.add_subcommand(name, description);
-    if (takesScene) verb->add_option("SCENE", arguments.scene, sceneHelp)->required()->type_name("");
-    verb->parse_complete_callback([&arguments, name] { arguments.verb = name; });
-    return *verb;
-}
-
 void addSnapshot(CLI::App& app, Arguments& arguments) {
     SnapshotOptions& snapshot = arguments.snapshot;
     CLI::App& verb =
@@ -98,6 +48,61 @@ void addSnapshot(CLI::App& app, Arguments& arguments) {
         ->check(numberIn(0, 100));
     addCommon(verb, arguments.common);
     verb.final_callback([&snapshot, time] { snapshot.hasTime = time->count() > 0; });
+}
+
+/// Its words are checked by app/figure.cpp, against the tables of ui/pictures/paper_figure.hpp.
+void addFigure(CLI::App& app, Arguments& arguments) {
+    FigureOptions& figure = arguments.figure;
+    CLI::App& verb = addVerb(app, arguments, "figure",
+                             "a figure for a paper: panels, one legend, data and caption beside it", true);
+    const auto repeatable = [](CLI::Option* option) {
+        option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    };
+    verb.add_option("--out", figure.out, "the figure: .pdf, .svg or .png; beside it .csv and .tex")
+        ->required()
+        ->type_name("FILE");
+    repeatable(
+        verb.add_option("--view", figure.views, "a panel; repeatable, by default the plots of the scene")
+            ->type_name("NAME"));
+    repeatable(
+        verb.add_option("--only", figure.only, "the label of a scheme; repeatable")->type_name("LABEL"));
+    verb.add_option("--width", figure.width, "column (86, the default), page (178), slide (254), or a number")
+        ->type_name("MM");
+    verb.add_option("--ratio", figure.ratio, "height of a panel over its width, 0.7 by default")
+        ->type_name("R");
+    verb.add_option("--letters", figure.letters, "size of the letters at the ticks in points, 8 by default")
+        ->type_name("PT");
+    verb.add_option("--lines", figure.lines, "width of the curves in points, 0.75 by default")
+        ->type_name("PT");
+    verb.add_option("--columns", figure.columns, "panels beside each other; 0, the default: as have room")
+        ->type_name("N");
+    verb.add_option("--dpi", figure.dotsPerInch, "dots per inch of a PNG, 300 by default")->type_name("N");
+    verb.add_option("--font", figure.font, "a font of this machine, or the file of one; Inter by default")
+        ->type_name("NAME");
+    verb.add_option("--legend", figure.legend, "below (default), above, right or none")->type_name("PLACE");
+    verb.add_option("--colours", figure.colours,
+                    "paper (default, differ in grey and for the colour blind), screen or grey")
+        ->type_name("NAME");
+    verb.add_option("--portraits", figure.portraits,
+                    "curves in a plane: beside (a panel per scheme, default), density or over")
+        ->type_name("NAME");
+    verb.add_flag("--titles,!--no-titles", figure.hasTitles, "titles above the panels (default)");
+    verb.add_flag("--equal", figure.isEqual, "in portraits one unit is as long on both axes");
+    verb.add_option("--times", figure.times, "the window of time that is shown")->type_name("FROM:TO");
+    verb.add_option("--caption", figure.caption, "in place of one that names panels and schemes")
+        ->type_name("TEXT");
+    verb.add_flag("--draw-caption", figure.isCaptionDrawn, "the caption in the picture as well");
+    addCommon(verb, arguments.common);
+}
+
+void addPage(CLI::App& app, Arguments& arguments) {
+    CLI::App& verb =
+        addVerb(app, arguments, "page", "a page for browsers, in one file, on which the motion plays", true);
+    verb.add_option("--out", arguments.page.out, "the page: .html")->required()->type_name("FILE");
+    verb.add_option("--frames", arguments.page.frames, "pictures of the motion, 0 to 600; 90 by default")
+        ->type_name("N")
+        ->check(CLI::Range(0, 600).description(""));
+    addCommon(verb, arguments.common);
 }
 
 /// `study KIND SCENE`, and `study merge DIR...`: one verb, whose first word decides.
@@ -151,6 +156,12 @@ void addStudy(CLI::App& app, Arguments& arguments) {
                     "for cheapest: the schemes of the scene (default), or all that accept it; for needs all "
                     "by default")
         ->type_name("scene|all");
+    verb.add_option(
+            "--over", study.over,
+            "for cheapest and needs: values of a number of the scene, all of which one setting must serve")
+        ->type_name("POINTER=A,B,C or POINTER=FROM:TO:N[:log]");
+    verb.add_option("--of", study.of, "the errors over these: the worst (default) or the median")
+        ->type_name("worst|median");
     verb.add_option("--search-time", study.searchTime,
                     "for cheapest and needs: CPU time of the search, 1s and 4s by default; for limits "
                     "of each scheme, 2s")
@@ -250,6 +261,54 @@ void addWisdom(CLI::App& app, Arguments& arguments) {
 
 }  // namespace
 
+CLI::Validator finiteNumber() { return numberIn(-HUGE_VAL, HUGE_VAL); }
+
+void addCommon(CLI::App& verb, CommonOptions& options) {
+    const bool isProgram = !verb.get_parent();
+    const auto isTaken = [&](const char* option) { return isProgram || takes(verb.get_name(), option); };
+    std::vector<CLI::Option*> added;
+    if (isTaken("--set"))
+        added.push_back(verb.add_option("--set", options.overrides,
+                                        "change a value of the scene: --set '/schemes/*/step=0.1'; "
+                                        "repeatable")
+                            ->type_name("POINTER=VALUE")
+                            ->expected(1)
+                            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+    if (isTaken("--add"))
+        added.push_back(
+            verb.add_option("--add", options.added,
+                            "a scheme of your own, by its name in your catalogue or a file it was "
+                            "exported to; repeatable, before --set")
+                ->type_name("SCHEME")
+                ->expected(1)
+                ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+    if (isTaken("--json"))
+        added.push_back(verb.add_flag("--json", options.isJson, "one JSON document on standard output"));
+    if (isTaken("--quiet")) added.push_back(verb.add_flag("--quiet", options.isQuiet, "errors only"));
+    if (isTaken("--trust"))
+        added.push_back(verb.add_flag("--trust", options.isTrusted,
+                                      "read files that the scene names outside its own folder"));
+    if (isTaken("--force"))
+        added.push_back(verb.add_flag("--force", options.isForced,
+                                      "replace files in --out that this program did not write"));
+    if (isTaken("--threads"))
+        added.push_back(
+            verb.add_option("--threads", options.threads, "threads to use, 1 to 1024; all cores by default")
+                ->type_name("N")
+                ->check(CLI::Range(1U, 1024U).description("")));
+    if (isProgram)
+        for (CLI::Option* option : added) option->group("Options of verbs, before or behind the verb");
+    verb.set_help_flag("--help,-h", "this text");
+}
+
+CLI::App& addVerb(CLI::App& app, Arguments& arguments, const char* name, const char* description,
+                  bool takesScene) {
+    CLI::App* verb = app.add_subcommand(name, description);
+    if (takesScene) verb->add_option("SCENE", arguments.scene, sceneHelp)->required()->type_name("");
+    verb->parse_complete_callback([&arguments, name] { arguments.verb = name; });
+    return *verb;
+}
+
 const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() {
     static const std::vector<std::pair<std::string, std::vector<std::string>>> all = {
         {"", {"extremal preset:kepler", "extremal run preset:kepler --out kepler", "extremal run --help"}},
@@ -260,6 +319,11 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() 
         {"snapshot",
          {"extremal snapshot preset:pendulum --out pendulum.png",
           "extremal snapshot preset:kepler --view energy --size 900x600 --out energy.svg"}},
+        {"figure",
+         {"extremal figure preset:kepler --view energy --view phase --out kepler.pdf",
+          "extremal figure preset:kepler --width page --portraits density --font 'DejaVu Serif' --out "
+          "wide.svg"}},
+        {"page", {"extremal page preset:kepler --out kepler.html"}},
         {"passport",
          {"extremal passport preset:pendulum --no-measure",
           "extremal passport preset:kepler --set '/schemes/-={\"label\": \"G4\", \"scheme\": "
@@ -267,6 +331,18 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() 
         {"program",
          {"extremal program preset:pendulum --out pendulum.cpp",
           "extremal program preset:kepler --out kepler.py"}},
+        {"orbit",
+         {"extremal orbit preset:pendulum --out orbit",
+          "extremal orbit preset:orbits --follow energy=0.125 --out family",
+          "extremal orbit preset:kepler --set '/initial={\"q\": [1, 0], \"q1\": [0, 1], \"at\": 1.5}' "
+          "--out arrivals"}},
+        {"fit",
+         {"extremal run preset:pendulum --out run && extremal fit preset:pendulum --data run/rk4.csv "
+          "--columns q.theta --free /model/l --out fit"}},
+        {"gradient",
+         {"extremal gradient preset:pendulum --of 'theta^2/2' --with /model/l,/model/g,/initial/q/0 "
+          "--out gradient"}},
+        {"steer", {"extremal steer preset:swing-up --over 'u^2/2' --end theta-pi --end p_theta --out steer"}},
         {"formulas", {"extremal formulas preset:four-bar-by-hand --out four-bar.json"}},
         {"check",
          {"extremal check preset:kepler",
@@ -311,8 +387,11 @@ std::unique_ptr<CLI::App> makeInterface(Arguments& arguments) {
         ->check(numberIn(0, 1e6));
     addCommon(run, arguments.common);
     addSnapshot(app, arguments);
+    addFigure(app, arguments);
+    addPage(app, arguments);
     addPassport(app, arguments);
     addProgram(app, arguments);
+    addAnswers(app, arguments);
     addFormulas(app, arguments);
     addCommon(addVerb(app, arguments, "check", "report every error and warning of a scene", true),
               arguments.common);

@@ -44,11 +44,19 @@ int dispatch(int argc, char** argv) {
         return passportVerb(arguments->scene, arguments->passport, arguments->common);
     if (arguments->verb == "program")
         return programVerb(arguments->scene, arguments->program, arguments->common);
+    if (arguments->verb == "orbit") return orbitVerb(arguments->scene, arguments->orbit, arguments->common);
+    if (arguments->verb == "gradient")
+        return gradientVerb(arguments->scene, arguments->gradient, arguments->common);
+    if (arguments->verb == "steer") return steerVerb(arguments->scene, arguments->steer, arguments->common);
+    if (arguments->verb == "fit") return fitVerb(arguments->scene, arguments->fit, arguments->common);
     if (arguments->verb == "formulas")
         return formulasVerb(arguments->scene, arguments->formulas, arguments->common);
     if (arguments->verb == "check") return checkVerb(arguments->scene, arguments->common);
     if (arguments->verb == "handbook") return handbookVerb(arguments->kind, arguments->common);
     if (arguments->verb == "list") return listVerb(arguments->kind, arguments->common);
+    if (arguments->verb == "page") return pageVerb(arguments->scene, arguments->page, arguments->common);
+    if (arguments->verb == "figure")
+        return figureVerb(arguments->scene, arguments->figure, arguments->common);
     if (arguments->verb == "snapshot")
         return snapshotVerb(arguments->scene, arguments->snapshot, arguments->common);
     return guiVerb(argc, argv, arguments->scene, arguments->common);

@@ -10,6 +10,7 @@
 #include "engine/passport/program.hpp"
 #include "engine/run/files/export.hpp"
 #include "engine/scene/read/json.hpp"
+#include "engine/scene/single_scheme.hpp"
 
 namespace extremal::app {
 namespace {

@@ -12,6 +12,7 @@
 #include "engine/core/text/markup.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/scene/outlook/topics.hpp"
+#include "ui/pictures/snapshot.hpp"
 
 namespace extremal::app {
 
@@ -53,6 +54,11 @@ int tellUnwritable(const ExportError& error) {
     printProblem(error.path.string(), std::string("cannot be written: ") + error.what(),
                  isForeign ? "--force replaces it, or choose another --out" : "another --out");
     return unwritable;
+}
+
+int tellUndrawn(const SnapshotError& error) {
+    printProblem(error.where, error.what(), error.hint);
+    return error.kind == SnapshotError::Kind::unwritable ? unwritable : unusable;
 }
 
 int print(std::string_view text, int code) {

@@ -12,6 +12,10 @@
 #include "engine/core/value.hpp"
 #include "engine/run/files/export.hpp"
 
+namespace extremal {
+class SnapshotError;
+}
+
 namespace extremal::app {
 
 /// Most errors, and most warnings, that are listed at once.
@@ -29,6 +33,9 @@ void printProblems(const std::string& file, const std::vector<Problem>& problems
 int tellUnusable(const InvalidScene& error, const std::string& file);
 /// What could not be written. Returns the exit code.
 int tellUnwritable(const ExportError& error);
+
+/// A picture that could not be made or written. Returns the exit code.
+int tellUndrawn(const SnapshotError& error);
 
 /// Writes to standard output. Returns `code`, or 3 after an error message if not all could be written.
 [[nodiscard]] int print(std::string_view text, int code);

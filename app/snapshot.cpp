@@ -72,6 +72,17 @@ int printSnapshot(const SnapshotOptions& snapshot, const SnapshotRequest& reques
 
 }  // namespace
 
+Scene withView(const Scene& scene, const std::string& view) {
+    if (std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == view; }))
+        return scene;
+    ReadScene wider = readScene(toValue(scene), {{"/views/-", view}});
+    if (!wider.errors.empty())
+        throw SnapshotError(SnapshotError::Kind::unusable, "--view",
+                            "the view " + view + " is not for this scene: " + wider.errors.front().message,
+                            wider.errors.front().hint);
+    return std::move(wider.scene);
+}
+
 int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options) {
     const ReadScene read = loadScene(scene, options);
     if (!reportScene(scene, read, options)) return unusable;
@@ -81,19 +92,7 @@ int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, cons
         request.replacing = replacingOf(scene, read, options);
         checkSnapshot(read.scene, request);
         InterruptWatch watch;
-        // A view asked for here is computed as if the scene had it.
-        Scene shown = read.scene;
-        const bool isInScene = std::any_of(shown.views.begin(), shown.views.end(),
-                                           [&](const View& v) { return v.id == request.view; });
-        if (request.view != "all" && !isInScene) {
-            ReadScene wider = readScene(toValue(shown), {{"/views/-", request.view}});
-            if (!wider.errors.empty())
-                throw SnapshotError(
-                    SnapshotError::Kind::unusable, "--view",
-                    "the view " + request.view + " is not for this scene: " + wider.errors.front().message,
-                    wider.errors.front().hint);
-            shown = std::move(wider.scene);
-        }
+        Scene shown = request.view == "all" ? read.scene : withView(read.scene, request.view);
         Run run(shown, {options.threads});
         run.start();
         const bool isInterrupted = waitFor(run, watch, options);
@@ -110,8 +109,7 @@ int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, cons
     } catch (const ExportError& e) {
         return tellUnwritable(e);
     } catch (const SnapshotError& e) {
-        printProblem(e.where, e.what(), e.hint);
-        return e.kind == SnapshotError::Kind::unwritable ? unwritable : unusable;
+        return tellUndrawn(e);
     }
 }
 

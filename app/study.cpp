@@ -129,8 +129,11 @@ int report(const StudyEntry& study, const Study& work, const StudyOptions& given
     }
     if (isInterrupted) printProblem("", "interrupted: the results are partial", "--resume goes on");
     if (options.isQuiet) return code;
-    return print(tableText(summaryOf(study, work)) + "\n" + study.item.id + ".csv in " + given.out + "\n",
-                 code);
+    std::string besides;
+    for (std::size_t i = 1; i < tables.size() && study.besides; ++i) besides += tableText(tables[i]) + "\n";
+    return print(
+        tableText(summaryOf(study, work)) + "\n" + besides + study.item.id + ".csv in " + given.out + "\n",
+        code);
 }
 
 std::string textOf(const std::filesystem::path& file) {

@@ -6,6 +6,11 @@
 #include <vector>
 
 #include "engine/run/march/checkpoints.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/study/fit/fit.hpp"
+#include "engine/study/gradient/gradient.hpp"
+#include "engine/study/gradient/steering.hpp"
+#include "engine/study/orbits/orbit_request.hpp"
 #include "engine/study/request.hpp"
 
 namespace extremal::app {
@@ -28,6 +33,22 @@ struct SnapshotOptions {
     std::string out, view = "all", size = "1200x800", compareWith;
     double time = 0, tolerance = -1;
     bool hasTime = false;
+};
+
+struct FigureOptions {
+    std::string out;
+    std::vector<std::string> views;  ///< empty: those of the scene
+    std::string width = "column", legend = "below", colours = "paper", portraits = "beside", times;
+    std::string font, caption;
+    std::vector<std::string> only;  ///< labels of schemes
+    double ratio = 0.7, letters = 8, lines = 0.75;
+    int columns = 0, dotsPerInch = 300;
+    bool hasTitles = true, isEqual = false, isCaptionDrawn = false;
+};
+
+struct PageOptions {
+    std::string out;
+    int frames = 90;
 };
 
 struct RunVerbOptions {
@@ -70,9 +91,30 @@ struct FormulasRequest {
     std::string out;  ///< empty: standard output
 };
 
+struct OrbitOptions : OrbitRequest {
+    std::string out;
+    std::vector<double> momenta;  ///< between two positions: where Newton's method begins
+};
+
+struct FitOptions : FitRequest {
+    std::string out, data;
+};
+
+struct GradientOptions : GradientRequest {
+    std::string out;
+};
+
+struct SteerOptions : SteeringRequest {
+    std::string out;
+};
+
 int runVerb(const std::string& scene, const RunVerbOptions& run, const CommonOptions& options);
 int passportVerb(const std::string& scene, const PassportRequest& request, const CommonOptions& options);
 int programVerb(const std::string& scene, const ProgramRequest& request, const CommonOptions& options);
+int fitVerb(const std::string& scene, const FitOptions& fit, const CommonOptions& options);
+int gradientVerb(const std::string& scene, const GradientOptions& gradient, const CommonOptions& options);
+int steerVerb(const std::string& scene, const SteerOptions& steer, const CommonOptions& options);
+int orbitVerb(const std::string& scene, const OrbitOptions& orbit, const CommonOptions& options);
 /// The scene with its model as a typed Lagrangian.
 int formulasVerb(const std::string& scene, const FormulasRequest& request, const CommonOptions& options);
 int checkVerb(const std::string& scene, const CommonOptions& options);
@@ -84,7 +126,14 @@ int guiVerb(int argc, char** argv, const std::string& scene, const CommonOptions
 int studyVerb(const std::string& scene, const StudyOptions& study, const CommonOptions& options);
 int atlasVerb(const AtlasRunOptions& atlas, const CommonOptions& options);
 int mergeVerb(const StudyOptions& study, const CommonOptions& options);
+/// The scene with a view that was asked for, computed as if the scene had it. Throws SnapshotError where it
+/// is not for this scene.
+Scene withView(const Scene& scene, const std::string& view);
 int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options);
+
+int figureVerb(const std::string& scene, const FigureOptions& figure, const CommonOptions& options);
+
+int pageVerb(const std::string& scene, const PageOptions& page, const CommonOptions& options);
 
 /// The version and the commit, on one line.
 std::string versionText();

@@ -125,7 +125,7 @@ private slots:
               "study stability s.json --x /schemes/*/step=0.1:1:2 --limit --out d",
               "study linear-stability s.json --out d", "passport s.json --no-measure --out p.md",
               "passport s.json --no-measure --out p.html", "passport s.json --no-measure --out p.tex",
-              "program s.json --out p.py", "program s.json --out p.cpp",
+              "orbit s.json --period 2 --out d", "program s.json --out p.py", "program s.json --out p.cpp",
               "snapshot s.json --view energy --out p.png", "snapshot s.json --view energy --out p.svg",
               "snapshot s.json --view energy --out p.pdf",
               "snapshot s.json --view energy --out p.png --compare base.png --tolerance 100"})
