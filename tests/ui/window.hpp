@@ -6,6 +6,7 @@
 
 #include "ui/compare/compare_view.hpp"
 #include "ui/panels/discretizer.hpp"
+#include "ui/plots/plot_widget.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/workspace/run_control.hpp"
 
@@ -20,6 +21,13 @@ inline bool waitForResults(MainWindow& window) {
                    window.discretizer().isCurrent();
         },
         120000);
+}
+
+/// The first plot of a view; null: the scene has no such plot.
+inline PlotWidget* plotOf(MainWindow& window, const std::string& view) {
+    for (PlotWidget* plot : window.compareView().plots())
+        if (plot->figure().view == view) return plot;
+    return nullptr;
 }
 
 }  // namespace extremal

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/base/theme.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <QApplication>
 #include <QFontDatabase>
 #include <QStyle>
 #include <QStyleFactory>
 #include <QWidget>
-#include <algorithm>
-#include <cmath>
 
 #include "engine/figure/figure.hpp"
 #include "engine/figure/image/palette.hpp"
@@ -100,8 +100,8 @@ SeriesStyle Theme::series(int style) const {
 
 namespace {
 
-QFont interFont(double pixels, QFont::Weight weight) {
-    QFont font(loadFonts());
+QFont fontOf(const Theme& theme, double pixels, QFont::Weight weight) {
+    QFont font(theme.family.isEmpty() ? loadFonts() : theme.family);
     font.setPixelSize(std::max(6, static_cast<int>(std::lround(pixels))));
     font.setWeight(weight);
     font.setHintingPreference(QFont::PreferNoHinting);
@@ -111,11 +111,11 @@ QFont interFont(double pixels, QFont::Weight weight) {
 
 }  // namespace
 
-QFont Theme::body() const { return interFont(12 * fontScale, QFont::Normal); }
-QFont Theme::strong() const { return interFont(12 * fontScale, QFont::DemiBold); }
-QFont Theme::caption() const { return interFont(11 * fontScale, QFont::Normal); }
-QFont Theme::title() const { return interFont(13 * fontScale, QFont::DemiBold); }
-QFont Theme::heading() const { return interFont(14 * fontScale, QFont::DemiBold); }
+QFont Theme::body() const { return fontOf(*this, 12 * fontScale, QFont::Normal); }
+QFont Theme::strong() const { return fontOf(*this, 12 * fontScale, QFont::DemiBold); }
+QFont Theme::caption() const { return fontOf(*this, 11 * fontScale, QFont::Normal); }
+QFont Theme::title() const { return fontOf(*this, 13 * fontScale, QFont::DemiBold); }
+QFont Theme::heading() const { return fontOf(*this, 14 * fontScale, QFont::DemiBold); }
 
 QPalette Theme::palette() const {
     QPalette p;

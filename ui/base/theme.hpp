@@ -17,12 +17,12 @@
 /// After changing a property of a visible widget call repolish(widget).
 #pragma once
 
+#include <array>
 #include <QColor>
 #include <QFont>
 #include <QList>
 #include <QPalette>
 #include <QString>
-#include <array>
 
 class QApplication;
 class QWidget;
@@ -52,6 +52,8 @@ struct Theme {
     QColor good;
     std::array<QColor, 8> seriesColors;
     double fontScale = 1;  ///< the user's setting
+    QString family = {};   ///< of all letters; empty: the bundled one
+    double lineWidth = 1;  ///< of curves, in units of their usual width
 
     static Theme light();
     static Theme dark();

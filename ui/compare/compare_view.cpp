@@ -10,6 +10,7 @@
 #include <map>
 
 #include "engine/figure/figure.hpp"
+#include "engine/figure/panels.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/view/axes.hpp"
@@ -76,6 +77,7 @@ void CompareView::connectState() {
         slots_.clear();
         maximized_ = nullptr;
         group_->forget();
+        times_.reset();
     });
     connect(&workspace_, &Workspace::sceneChanged, this, &CompareView::rebuild);
     connect(&workspace_, &Workspace::selectionChanged, this, [this] {
@@ -99,6 +101,7 @@ void CompareView::connectState() {
             if (styleOf(schemes[i], i) == style) return workspace_.selectScheme(static_cast<int>(i));
     });
     connect(group_, &PlotGroup::saveFailed, this, &CompareView::saveFailed);
+    connect(group_, &PlotGroup::timeRangeChanged, this, &CompareView::showTimes);
 }
 
 QString CompareView::selectedLabel() const {
@@ -199,6 +202,7 @@ CompareView::Slot& CompareView::makeSlot(const View& view) {
     menu->addAction(tr("Fit"), plot, &PlotWidget::fit);
     menu->addAction(tr("Previous view"), plot, &PlotWidget::back);
     makeMaximizable(*card);
+    addPlaceActions(*menu, slot);
     menu->addSeparator();
     addSceneActions(*menu, slot);
     menu->addSeparator();
@@ -231,6 +235,14 @@ void CompareView::connectStarting(Slot& slot) {
             editsForStart(workspace_.scene(), slot.view, *system, roundedPlace({x, y}, *slot.plot));
         if (!start.problem.isEmpty()) return emit startRefused(start.problem);
         if (!start.edits.empty()) workspace_.edit(start.edits, tr("Add a start"));
+    });
+    connect(slot.plot, &PlotWidget::orbitAsked, this, [this, &slot](double x, double y) {
+        const System* const system = systemOfScene();
+        if (!system) return;
+        const StartEdits start =
+            editsForMove(workspace_.scene(), slot.view, *system, roundedPlace({x, y}, *slot.plot));
+        if (!start.problem.isEmpty()) return emit startRefused(start.problem);
+        if (!start.edits.empty()) emit orbitAsked(start.edits);
     });
     connect(slot.plot, &PlotWidget::handleMoved, this, [this, &slot](double x, double y) {
         const System* const system = systemOfScene();
@@ -278,6 +290,7 @@ void CompareView::addSceneActions(QMenu& menu, Slot& slot) {
 }
 
 int CompareView::columns() const {
+    if (isPresented_) return width() >= height() ? 2 : 1;
     switch (pageLayout_) {
         case PageLayout::oneColumn:
             return 1;
@@ -303,11 +316,16 @@ void CompareView::arrange() {
         cards.emplace_back(maximized_, CardShape::plot);
     } else {
         if (showsStage) cards.emplace_back(stageCard_, CardShape::stage);
-        for (const auto& s : slots_)
+        const bool hasPresented =
+            isPresented_ && std::any_of(slots_.begin(), slots_.end(),
+                                        [&](const auto& s) { return s->number == presentedSlot_; });
+        for (const auto& s : slots_) {
+            if (isPresented_ && (hasPresented ? s->number != presentedSlot_ : s != slots_.front())) continue;
             cards.emplace_back(s->card,
                                s->plot->figure().aspect == Aspect::equal && !isEmpty(s->plot->figure())
                                    ? CardShape::square
                                    : CardShape::plot);
+        }
     }
     if (columns() == columns_ && cards == arranged_) return;
     columns_ = columns();
@@ -416,13 +434,16 @@ void CompareView::take(FigureSet made) {
         addSweep(view, made.figures[i]);
         s.card->setTitle(QString::fromStdString(made.figures[i].title));
         s.card->setSubtitle(QString::fromStdString(made.figures[i].subtitle));
-        s.plot->setFigure(std::move(made.figures[i]));
+        s.whole = asChosen(s, std::move(made.figures[i]));
+        s.plot->setFigure(inTimes(*s.whole));
+        if (!isPortrait(*s.whole)) s.whole.reset();
         ++figuresMade_;
     }
     if (made.player && !preview_->isShown()) {
         staged_ = made.job.results;
         stage_->setPlayer(std::move(*made.player));
         stage_->setTime(playback_.time());
+        describeStage();
     }
     if (made.figures.empty()) return;
     arrange();
@@ -451,7 +472,8 @@ void CompareView::pointAt(const QString& view) {
     bool isFirst = true;
     for (const auto& s : slots_) {
         const bool isMeant = isFirst && s->view.id == view.toStdString();
-        mark(s->card, isMeant);
+        if (isMeant && std::exchange(presentedSlot_, s->number) != s->number && isPresented_) arrange();
+        mark(s->card, isMeant && !isPresented_);
         isFirst = isFirst && !isMeant;
     }
 }

@@ -10,11 +10,13 @@
 #include <optional>
 #include <vector>
 
+#include "engine/figure/figure.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/scene.hpp"
 #include "ui/compare/card_layout.hpp"
 #include "ui/compare/figure_job.hpp"
 #include "ui/compare/profile_drawing.hpp"
+#include "ui/plots/view_state.hpp"
 
 class QAction;
 class QMenu;
@@ -68,6 +70,10 @@ public:
     bool hasStage() const { return hasStage_; }
     std::vector<PlotWidget*> plots() const;
     void setPageLayout(PageLayout layout);
+    /// The stage and one plot alone: the one that was pointed at last, else the current one.
+    void setPresented(bool isPresented);
+    /// The plot so many places further has the focus, and is presented.
+    void showOtherPlot(int by);
     PageLayout pageLayout() const { return pageLayout_; }
     int columns() const;
     /// One card takes the whole page; the same one again, or restore(), brings the others back.
@@ -89,6 +95,7 @@ signals:
     void saveFailed(const QString& reason);
     void caseLoaded(const QString& text);      ///< of a map, into the scene
     void startRefused(const QString& reason);  ///< no motion starts at a place that was chosen
+    void orbitAsked(const std::vector<Edit>& start);  ///< a periodic orbit near this start of the scene
     /// What was drawn cannot be in the scene; both empty: it is, or nothing is drawn.
     void sketchRefused(const QString& reason, const QString& remedy);
     void figuresChanged();
@@ -106,6 +113,8 @@ private:
         PlotWidget* plot;
         std::shared_ptr<const Comparison> shown = {};  ///< what the plot shows the view of
         View shownView = {};
+        std::optional<bool> isLog = {};    ///< the user's choice for y
+        std::optional<Figure> whole = {};  ///< of a portrait that shows a part of the time
     };
     void makeStage();
     void connectState();
@@ -114,6 +123,12 @@ private:
     Slot& makeSlot(const View& view);
     void makeMaximizable(Card& card);
     void addSceneActions(QMenu& menu, Slot& slot);
+    void addPlaceActions(QMenu& menu, Slot& slot);
+    Figure asChosen(const Slot& slot, Figure figure) const;
+    /// The part of the window of time, of a portrait; else the figure itself.
+    Figure inTimes(const Figure& whole) const;
+    void showTimes(std::optional<PlotRange> range);
+    void describeStage();  ///< to screen readers
     void arrange();
     void refresh();  ///< new results
     FigureJob missing() const;
@@ -158,7 +173,10 @@ private:
     std::vector<std::unique_ptr<Slot>> slots_;
     std::shared_ptr<const System> system_;  ///< of the results
     int columns_ = 0, nextNumber_ = 0;
-    bool hasStage_ = true;  ///< the model of the results has something to draw there
+    bool isPresented_ = false;
+    std::optional<PlotRange> times_;  ///< the window of time to which the user has zoomed
+    int presentedSlot_ = 0;           ///< the number of the slot whose plot is presented
+    bool hasStage_ = true;            ///< the model of the results has something to draw there
     bool isJobRunning_ = false;
     long long figuresMade_ = 0;
     const BackgroundSweep* sweep_ = nullptr;

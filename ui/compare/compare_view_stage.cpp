@@ -5,9 +5,13 @@
 #include <QActionGroup>
 #include <QMenu>
 
+#include <algorithm>
+
 #include "ui/base/card.hpp"
+#include "ui/base/format.hpp"
 #include "ui/compare/compare_view.hpp"
 #include "ui/stage/stage_widget.hpp"
+#include "ui/workspace/playback.hpp"
 
 namespace extremal {
 
@@ -16,7 +20,8 @@ void CompareView::makeStage() {
     stage_ = new StageWidget;
     stage_->setTheme(*theme_);
     stage_->setAccessibleName(tr("Stage"));
-    stage_->setFocusPolicy(Qt::ClickFocus);
+    stage_->setFocusPolicy(Qt::StrongFocus);
+    connect(&playback_, &Playback::timeChanged, this, &CompareView::describeStage);
     stage_->setPotentialShown(true);
     stageCard_->body()->addWidget(stage_, 1);
     QMenu* const menu = stageCard_->menu();
@@ -50,6 +55,30 @@ void CompareView::makeStage() {
     connectPreview();
     connectBodies();
     connectSketch();
+}
+
+/// What is seen, in words: of each scheme the state at the time of the cursor. Only while the motion stands
+/// still, as it could not be listened to otherwise.
+void CompareView::describeStage() {
+    const auto results = shownResults();
+    if (!results || playback_.isPlaying()) return;
+    QStringList parts{tr("t = %1").arg(shortNumber(playback_.time()))};
+    constexpr std::size_t most = 4;  // coordinates of a scheme
+    for (const auto& scheme : results->schemes) {
+        const auto& columns = scheme->trajectory.columns;
+        if (columns.empty() || columns[0].values.empty()) continue;
+        const auto& t = columns[0].values;
+        const auto at = std::min<std::ptrdiff_t>(
+            std::lower_bound(t.begin(), t.end(), playback_.time()) - t.begin(), std::ssize(t) - 1);
+        QStringList values;
+        for (std::size_t c = 1; c < columns.size() && c <= most; ++c)
+            if (columns[c].name.starts_with("q."))
+                values << QString::fromStdString(columns[c].symbol) + " " +
+                              shortNumber(columns[c].values[static_cast<std::size_t>(at)]);
+        parts << QString::fromStdString(scheme->spec.label) +
+                     (values.isEmpty() ? QString() : ": " + values.join(", "));
+    }
+    stage_->setAccessibleDescription(parts.join("; "));
 }
 
 void CompareView::toggleSideBySide() { stage_->setSideBySide(!stage_->isSideBySide()); }

@@ -64,6 +64,53 @@ std::vector<Edit> editsForPlot(const Scene& scene, const View& before, const Vie
     return {{"/views", *toValue(changed).find("views")}};
 }
 
+namespace {
+
+/// Every view alone: one of the scene can stand for several plots. "stage" and speed against accuracy stay.
+std::vector<View> singleViews(const Scene& scene) {
+    std::vector<View> all;
+    for (const View& view : scene.views.empty() ? plotViews(scene) : scene.views) {
+        Scene alone = scene;
+        alone.views = {view};
+        std::vector<View> plots = plotViews(alone);
+        if (plots.empty() || view.id == "stage") plots = {view};
+        all.insert(all.end(), plots.begin(), plots.end());
+    }
+    return all;
+}
+
+std::vector<Edit> editsForViews(const Scene& scene, std::vector<View> views) {
+    Scene changed = scene;
+    changed.views = std::move(views);
+    return {{"/views", *toValue(changed).find("views")}};
+}
+
+}  // namespace
+
+std::vector<Edit> editsWithoutPlot(const Scene& scene, const View& view) {
+    std::vector<View> views = singleViews(scene);
+    const auto at = std::find(views.begin(), views.end(), view);
+    if (at == views.end()) return {};
+    views.erase(at);
+    return editsForViews(scene, std::move(views));
+}
+
+std::vector<Edit> editsForMovedPlot(const Scene& scene, const View& view, int by) {
+    std::vector<View> views = singleViews(scene);
+    const auto isPlot = [](const View& v) { return v.id != "stage" && v.id != "work-precision"; };
+    std::vector<std::size_t> plots;  // their places
+    std::size_t now = views.size();
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (!isPlot(views[i])) continue;
+        if (views[i] == view) now = plots.size();
+        plots.push_back(i);
+    }
+    const auto to = static_cast<std::ptrdiff_t>(now) + by;
+    if (now >= plots.size() || to < 0 || to >= static_cast<std::ptrdiff_t>(plots.size())) return {};
+    std::swap(views[plots[now]], views[plots[static_cast<std::size_t>(to)]]);
+    return editsForViews(scene, std::move(views));
+}
+
 ViewRange roundedRange(PlotRange range, bool isLog) {
     const auto rounded = [&](double value) {
         const double size = isLog ? value : range.high - range.low;

@@ -26,6 +26,11 @@ std::vector<const ViewEntry*> offeredPlots(const Scene& scene);
 /// them.
 std::vector<Edit> editsForPlot(const Scene& scene, const View& before, const View& after);
 
+/// The scene's views without one of the plots shown, or with it moved so many places among them. Empty where
+/// nothing changes. A view that stands for several plots is split into them.
+std::vector<Edit> editsWithoutPlot(const Scene& scene, const View& view);
+std::vector<Edit> editsForMovedPlot(const Scene& scene, const View& view, int by);
+
 /// A range with no more digits than a plot can show: a ten-thousandth of its width, or four digits on a
 /// logarithmic axis.
 ViewRange roundedRange(PlotRange range, bool isLog);

@@ -15,7 +15,10 @@
 #include <memory>
 #include <utility>
 
+#include "engine/family/family.hpp"
+#include "engine/family/parts/test_space.hpp"
 #include "engine/family/stability_check.hpp"
+#include "engine/phase/monitored.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/theme.hpp"
@@ -25,6 +28,25 @@
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
+namespace {
+
+const std::vector<KeptQuantity> energyAlone{{"energy", "energy"}};
+
+/// The cell as one that keeps the energy, and what is known of it then.
+std::pair<ChoiceGrid::Cell, Properties> keepingEnergy(ChoiceGrid::Cell cell) {
+    const auto* const test = familyPart<TestSpace>(cell.discretization.space);
+    Properties known;
+    if (test)
+        known = test->describe(cell.discretization, energyAlone);
+    else
+        known.refusal = "its steps keep the energy in another way, or not at all";
+    cell.text = known.shortName;
+    cell.superscript.clear();
+    cell.title += ", keeps the energy";
+    return {std::move(cell), std::move(known)};
+}
+
+}  // namespace
 
 DiscretizerCell::DiscretizerCell(ChoiceGrid::Cell choice, const Properties& known, QWidget* parent)
     : QAbstractButton(parent), choice_(std::move(choice)) {
@@ -192,6 +214,18 @@ Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
         tr("Measures what the wanted error costs with each cell, and colours them: the stronger the "
            "cheaper (Ctrl+Shift+D)"));
     header()->addWidget(costs_);
+    energy_ = new QPushButton(tr("Energy"));
+    energy_->setObjectName("cellsKeepEnergy");
+    energy_->setCheckable(true);
+    energy_->setFocusPolicy(Qt::TabFocus);
+    energy_->setToolTip(
+        tr("What the cells keep: the symplectic form, or, while this is pressed, the energy. The curves are "
+           "the same, and are tested by other functions"));
+    header()->addWidget(energy_);
+    connect(energy_, &QPushButton::toggled, this, [this] {
+        fill();
+        showUses();
+    });
     room_ = new SidewaysArea;
     body()->addWidget(room_);
     about_ = makeLabel({}, "caption");
@@ -254,6 +288,9 @@ void Discretizer::look() {
 void Discretizer::take(const Settings& model, std::vector<DescribedGrid> offered) {
     if (workspace_.scene().model.type != model.type) return;  // that one's is looked for next
     model_ = model;
+    const bool hasEnergy = canKeepInvariants(*workspace_.resolved()->system);
+    energy_->setVisible(hasEnergy);
+    if (!hasEnergy) energy_->setChecked(false);
     if (!grid_ || offered != offered_) {
         offered_ = std::move(offered);
         fill();
@@ -303,7 +340,9 @@ void Discretizer::addGrid(const DescribedGrid& offered, QGridLayout& grid) {
         addHeading(choices.rows[static_cast<std::size_t>(row)], row + 1, 0);
         for (int column = 0; column < width; ++column) {
             const auto place = static_cast<std::size_t>(row * width + column);
-            auto* cell = new DiscretizerCell(choices.cells[place], known[place]);
+            const auto [choice, about] = energy_->isChecked() ? keepingEnergy(choices.cells[place])
+                                                              : std::pair(choices.cells[place], known[place]);
+            auto* cell = new DiscretizerCell(choice, about);
             if (theme_) cell->setTheme(*theme_);
             connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
             connect(cell, &DiscretizerCell::pointedAt, this,
@@ -326,7 +365,7 @@ DiscretizerCell* Discretizer::cell(int degree, const QString& rule) const {
 void Discretizer::showUses() {
     const std::vector<SchemeSpec>& schemes = workspace_.scene().schemes;
     for (DiscretizerCell* cell : cells_) {
-        const int there = findScheme(*workspace_.resolved(), cell->choice());
+        const int there = findScheme(*workspace_.resolved(), cell->choice(), energy_->isChecked());
         if (there < 0) {
             cell->setUse(DiscretizerCell::Use::none, 0);
             continue;
@@ -341,12 +380,18 @@ void Discretizer::choose(const DiscretizerCell& cell) {
     const Scene& scene = workspace_.scene();
     if (scene.model.type != model_.type) return;  // the cells of this model are on their way
     const bool isOwn = cell.choice().isOwn;
-    if (const int there = findScheme(*workspace_.resolved(), cell.choice()); there >= 0) {
+    if (const int there = findScheme(*workspace_.resolved(), cell.choice(), energy_->isChecked());
+        there >= 0) {
         workspace_.selectScheme(there);
         if (isOwn) emit ownChosen();
         return;
     }
-    const Value scheme = newPair(scene, cell.space(), cell.quadrature());
+    Value scheme = newPair(scene, cell.space(), cell.quadrature());
+    if (energy_->isChecked()) {
+        scheme.set("keep", "energy");
+        scheme.set("label",
+                   uniqueLabel(scene, scheme.find("label")->asString() + tr(", energy").toStdString()));
+    }
     const QString label = QString::fromStdString(scheme.find("label")->asString());
     if (!workspace_.edit(editsForAdding(scene, scheme), tr("Add %1").arg(label))) return;
     workspace_.selectScheme(static_cast<int>(workspace_.scene().schemes.size()) - 1);

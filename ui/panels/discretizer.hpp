@@ -90,6 +90,9 @@ public:
     const std::vector<DiscretizerCell*>& cells() const { return cells_; }
     /// Switches the shading by costs on or off; pressed by the user, it tells costsWanted().
     QPushButton& costs() const { return *costs_; }
+    /// The third choice beside space and rule: while it is pressed, cells keep the energy in place of the
+    /// symplectic form.
+    QPushButton& energy() const { return *energy_; }
     /// What the strip says while no cell is pointed at, in place of the usual words; empty: those.
     void setStripText(const QString& text);
 
@@ -117,7 +120,7 @@ private:
     SidewaysArea* room_;  ///< with large letters the columns need more than a narrow panel has
     QWidget* grid_ = nullptr;
     QLabel* about_;  ///< of the cell that is pointed at
-    QPushButton* costs_;
+    QPushButton *costs_, *energy_;
     QString strip_;
     const Theme* theme_ = nullptr;
 };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/scene_panel.hpp"
 
+#include <algorithm>
 #include <QComboBox>
 #include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
 #include <QVBoxLayout>
-#include <algorithm>
 
 #include "engine/model/parts/written_form.hpp"
 #include "engine/model/system.hpp"
@@ -17,6 +17,7 @@
 #include "ui/base/combo_box.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/lagrangian_editor.hpp"
+#include "ui/panels/scene_fields.hpp"
 #include "ui/panels/symmetry_line.hpp"
 #include "ui/workspace/scheme_edits.hpp"
 #include "ui/workspace/workspace.hpp"
@@ -50,6 +51,7 @@ bool isSmallObject(const Value* value) {
 void addFields(const Workspace& workspace, const FieldInfo& info, const std::string& place,
                std::vector<FormField>& fields) {
     const Value* value = valueAt(workspace.document(), place);
+    if (addElementFields(info, value, place, fields)) return;
     if (info.type != FieldType::json || !isSmallObject(value)) {
         fields.push_back({info, place, {}, {}});
         return;
@@ -85,6 +87,7 @@ std::string shapeOf(const Workspace& workspace, const std::vector<FieldInfo>& in
     std::string shape;
     for (const FieldInfo& info : infos) {
         const Value* value = valueAt(workspace.document(), part + info.key);
+        shape += shapeOfElements(info, value);
         if (info.type != FieldType::json || !isSmallObject(value)) continue;
         shape += ' ' + info.key;
         for (const Value::Member& member : value->asObject()) shape += '.' + member.first;
@@ -167,44 +170,6 @@ FormField referenceField(const Workspace& workspace, const std::string& now) {
             "/reference"};
 }
 
-/// Expression, direction and action of each event, and the restitution of one that reflects.
-std::vector<FormField> eventFields(const Scene& scene) {
-    std::vector<FormField> fields;
-    for (std::size_t i = 0; i < scene.events.size(); ++i) {
-        const std::string place = "/events/" + std::to_string(i);
-        const QString number = QString::number(i + 1);
-        fields.push_back(
-            {textField(
-                 "expression", "event", nullptr,
-                 "Where this passes zero: coordinates by their names, velocities as <name>_t, momenta as "
-                 "p_<name>, energy, reaction_<constraint>, integral(..) over time, t and the "
-                 "parameters of the model."),
-             place + "/expression",
-             QObject::tr("event %1").arg(number),
-             {}});
-        fields.push_back(
-            {choiceField("direction", "direction", format::directions, "Which way it passes zero."),
-             place + "/direction",
-             QObject::tr("direction %1").arg(number),
-             {}});
-        fields.push_back(
-            {choiceField("action", "action", format::actions,
-                         "write: with time and state into a file, and as marks; count: how often; stop: "
-                         "the run ends there; reflect: the motion bounces off it, from the side that the "
-                         "direction says."),
-             place + "/action",
-             QObject::tr("action %1").arg(number),
-             {}});
-        if (scene.events[i].action != EventSpec::Action::reflect) continue;
-        fields.push_back({numberField("restitution", "restitution", "", 1,
-                                      "The part of the speed that is left after the impact, 0 to 1."),
-                          place + "/restitution",
-                          QObject::tr("restitution %1").arg(number),
-                          {}});
-    }
-    return fields;
-}
-
 QLabel* sectionLabel(const QString& text) {
     QLabel* label = makeLabel(text, "strong");
     label->setContentsMargins(0, 4, 0, 0);
@@ -280,12 +245,12 @@ void ScenePanel::rebuild() {
         shownReference_ = kind->asString();
         reference_->setFields({referenceField(workspace_, shownReference_)});
     }
-    if (shownEvents_ != scene.events.size()) {
-        shownEvents_ = scene.events.size();
+    if (const std::string shape = shapeOfEvents(scene); shownEvents_ != shape) {
+        shownEvents_ = shape;
         events_->setFields(eventFields(scene));
     }
-    eventsTitle_->setVisible(shownEvents_ > 0);
-    events_->setVisible(shownEvents_ > 0);
+    eventsTitle_->setVisible(!scene.events.empty());
+    events_->setVisible(!scene.events.empty());
     std::string keys = std::to_string(static_cast<int>(scene.initial.second));
     for (const auto& [key, value] : scene.initial.given.keys) keys += ' ' + key;
     if (valueAt(workspace_.document(), "/initial/q")) keys += " q";

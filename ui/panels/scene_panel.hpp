@@ -36,7 +36,7 @@ private:
     std::string shownModel_;
     std::string shownInitial_;  ///< which keys of the initial data are shown
     std::string shownReference_;
-    std::size_t shownEvents_ = 0;
+    std::string shownEvents_;
 };
 
 }  // namespace extremal

@@ -347,14 +347,15 @@ void SchemeCard::resizeEvent(QResizeEvent* event) {
 void SchemeCard::placeStep() {
     constexpr int lineAndDots = 30 + 22 + 3 * 4;
     const QMargins m = layout_->contentsMargins();
-    const int room = width() - m.left() - m.right() - lineAndDots - step_->sizeHint().width();
-    const bool isBelow = name_->sizeHint().width() > room;
+    const int needed = name_->sizeHint().width() + step_->sizeHint().width();
+    const bool isBelow = needed > width() - m.left() - m.right() - lineAndDots;
     QHBoxLayout* const row = isBelow ? second_ : first_;
     if (row->indexOf(step_) >= 0) return;
     // Not back by the width of a scroll bar: the height of the card decides whether there is one.
     constexpr int moreThanABar = 24;
-    if (!isBelow && width() < widthBelow_ + moreThanABar) return;
-    widthBelow_ = isBelow ? width() : 0;
+    if (!isBelow && needed == neededBelow_ && width() < widthBelow_ + moreThanABar) return;
+    widthBelow_ = width();
+    neededBelow_ = needed;
     for (QWidget* part : {static_cast<QWidget*>(step_), static_cast<QWidget*>(stepEdit_)}) {
         (isBelow ? first_ : second_)->removeWidget(part);
         row->insertWidget(isBelow ? row->count() : row->count() - 1, part);  // before the dots

@@ -98,7 +98,8 @@ private:
     Figure cost_, error_, order_, steps_;
     QProgressBar* progress_;
     SchemeEditor* editor_ = nullptr;
-    int widthBelow_ = 0;  ///< where the step has been put below the name; 0: it stands beside it
+    /// Of the card, and of name and step, where the step was put below the name.
+    int widthBelow_ = 0, neededBelow_ = 0;
 };
 
 }  // namespace extremal

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/scheme_editor.hpp"
 
+#include <algorithm>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QStandardItemModel>
 #include <QVBoxLayout>
-#include <algorithm>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/family/parts/test_space.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/composition.hpp"
+#include "engine/phase/monitored.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "ui/base/combo_box.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/problem_text.hpp"
@@ -173,7 +176,8 @@ const SchemeSpec& SchemeEditor::spec() const {
 std::string SchemeEditor::signature() const {
     const SchemeSpec& s = spec();
     return std::to_string(static_cast<int>(s.kind)) + s.space.type + "/" + s.quadrature.type + "/" +
-           s.baseline.type + "/" + s.named + "/" + s.composition.type;
+           s.baseline.type + "/" + s.named + "/" + s.composition.type + "/" + s.monitor.type + "/" +
+           std::to_string(s.keep.size());
 }
 
 void SchemeEditor::setIndex(int index) {
@@ -257,6 +261,8 @@ void SchemeEditor::rebuild() {
              {},
              {}});
     addComposition(fields);
+    addKeep(fields);
+    addMonitor(fields);
     form_->setFields(std::move(fields));
     showChoices();
     showRefusal();
@@ -277,6 +283,62 @@ void SchemeEditor::addComposition(std::vector<FormField>& fields) const {
                       }});
     if (const CatalogItem* item = itemNamed(compositionCatalog(), s.composition.type))
         addFields(fields, item->parameters, at);
+}
+
+/// The third choice beside space and rule: what is kept.
+void SchemeEditor::addKeep(std::vector<FormField>& fields) const {
+    const auto discretization = discretizationOf(spec());
+    const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
+    const auto& resolved = workspace_.resolved();
+    if (!family || !family->parts.find<TestSpace>() || !resolved || !canKeepInvariants(*resolved->system))
+        return;
+    const std::string at = place() + "/keep";
+    const char* const about =
+        "What the steps keep: the symplectic form, the energy, or a list of invariants by name or formula.";
+    if (!spec().keep.empty() && !isEnergyAlone(spec().keep))
+        fields.push_back({optionalJsonField("keep", "keeps", about), at, {}, {}});
+    else
+        fields.push_back({choiceField("keep", "keeps", {"symplectic", "energy"}, about), at, {}, {}});
+}
+
+/// Equal steps can be made to follow the motion, where a Hamiltonian says how.
+void SchemeEditor::addMonitor(std::vector<FormField>& fields) const {
+    SchemeSpec equal = spec();
+    equal.monitor = {};
+    const auto& resolved = workspace_.resolved();
+    if (!resolved || !hasHamiltonian(*resolved->system) || resolve(equal).grid != TimeGrid::fixed) return;
+    std::vector<std::string> choices = idsOf(monitorCatalog());
+    choices.insert(choices.begin(), "none");
+    const FieldInfo type = choiceField("monitor", "steps follow", std::move(choices),
+                                       "Steps in proportion to a function of the motion, the step above "
+                                       "being the first.");
+    const std::string at = place() + "/monitor";
+    // A monitor may be written as a word or a formula: fields show what was read, and write the whole.
+    const Value written = toValue(workspace_.scene());
+    const Value* const monitor = valueAt(written, at);
+    FormField kind{type, at + "/type", {}, [at](const Value& chosen) -> std::vector<Edit> {
+                       if (chosen == Value("none")) return {{at, std::nullopt}};
+                       Value next(Value::Object{{"type", chosen}});
+                       if (chosen == Value(monitorCatalog().front().id)) next.set("monitor", "1");
+                       return {{at, next}};
+                   }};
+    if (monitor) kind.info.fallback = spec().monitor.type;
+    fields.push_back(std::move(kind));
+    const CatalogItem* const item = itemNamed(monitorCatalog(), spec().monitor.type);
+    if (!item || !monitor) return;
+    for (const FieldInfo& info : item->parameters) {
+        FormField field{info, at + "/" + info.key, {}, [this, at, key = info.key](const Value& value) {
+                            const Value whole = toValue(workspace_.scene());
+                            Value next(Value::Object{});
+                            if (const Value* const now = valueAt(whole, at))
+                                for (const auto& [name, old] : now->asObject())
+                                    if (name != key) next.set(name, old);
+                            if (!value.isNull()) next.set(key, value);
+                            return std::vector<Edit>{{at, next}};
+                        }};
+        if (const Value* const value = monitor->find(info.key)) field.info.fallback = *value;
+        fields.push_back(std::move(field));
+    }
 }
 
 void SchemeEditor::changeKind(int kind) {

@@ -41,6 +41,8 @@ private:
     void change(const Value& scheme);
     QComboBox* addChoice(const QString& title, const QString& name);
     void addComposition(std::vector<FormField>& fields) const;
+    void addKeep(std::vector<FormField>& fields) const;
+    void addMonitor(std::vector<FormField>& fields) const;
     std::string signature() const;
     const SchemeSpec& spec() const;
     std::string place() const { return "/schemes/" + std::to_string(index_); }

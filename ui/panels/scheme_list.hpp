@@ -29,6 +29,8 @@ public:
     void addFoot(QWidget* foot);
 
     void openAddMenu();
+    /// Adds it to the scene and selects it.
+    void add(const Value& scheme);
     /// Gives a row the focus, and so selects it.
     void focusRow(int index);
     void editSelected();
@@ -52,7 +54,6 @@ private:
     void showResults();
     void showSelection();
     void fillAddMenu();
-    void add(const Value& scheme);
 
     Workspace& workspace_;
     RunControl& run_;

@@ -9,9 +9,11 @@
 
 #include "engine/core/text/markup.hpp"
 #include "engine/core/text/text.hpp"
-#include "engine/figure/image/svg.hpp"
 #include "engine/run/files/export.hpp"
+#include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "ui/base/format.hpp"
+#include "ui/pictures/playing_page.hpp"
 #include "ui/plots/plot_renderer.hpp"
 #include "ui/text/foreign_text.hpp"
 
@@ -35,12 +37,6 @@ QString embedded(const QImage& image, const QString& what) {
     QBuffer buffer(&bytes);
     image.save(&buffer, "PNG");
     return embedded(bytes, "png", std::lround(image.width() / image.devicePixelRatio()), what);
-}
-
-QString embedded(const Figure& figure) {
-    const std::string svg = svgOf(figure, {figureSize.width(), figureSize.height(), false});
-    return embedded(QByteArray::fromStdString(svg), "svg+xml", figureSize.width(),
-                    QString::fromStdString(figure.title));
 }
 
 /// Notes with their formulas: what stands between the tags of the body. Tags in the notes are text.
@@ -106,38 +102,59 @@ QString commandsFor(const ExportParts& parts) {
     return text;
 }
 
-QString reportPage(const ExportParts& parts) {
-    const Comparison& comparison = *parts.comparison;
-    const Scene& scene = comparison.scene;
-    QString html =
-        QStringLiteral(
-            "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>%1</title>\n<style>"
-            "body{font:15px/1.5 Inter,system-ui,sans-serif;max-width:1040px;margin:2em auto;padding:0 1em;"
-            "color:#1f2328}table{border-collapse:collapse;font-size:13px}th,td{text-align:left;"
-            "padding:4px 10px;border-bottom:1px solid #dfe3e8}.n{text-align:right}figure{margin:1.5em 0}"
-            "figcaption,.m{color:#636c78}img{max-width:100%;height:auto}pre{background:#f3f4f6;"
-            "padding:12px;overflow:auto}</style></head><body>\n<h1>%1</h1>\n")
-            .arg(escaped(scene.title));
-    if (!scene.lesson.empty()) html += "<p><em>" + escaped(scene.lesson) + "</em></p>\n";
-    html += notesHtml(scene.notes);
-    if (!scene.source.empty()) html += "<p class=m>Source: " + escaped(scene.source) + "</p>\n";
+namespace {
+
+QString pageHead(const Scene& scene) {
+    QString html = QStringLiteral(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta name=\"viewport\" content=\"width=device-width\">"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"");
+    html += pagePolicy() + "\"><title>" + escaped(scene.title) + "</title>\n<style>";
     html +=
-        "<h2>Schemes</h2>\n<table><tr><th>scheme</th><th>discretization</th><th>step</th><th>steps</"
-        "th><th>CPU "
-        "time</th><th>largest error</th><th>order, claimed / measured</th><th>energy "
-        "drift</th><th>outcome</th></tr>\n";
+        "body{font:15px/1.5 Inter,system-ui,sans-serif;max-width:1040px;margin:2em auto;padding:0 1em;"
+        "color:#1f2328}table{border-collapse:collapse;font-size:13px}th,td{text-align:left;"
+        "padding:4px 10px;border-bottom:1px solid #dfe3e8}.n{text-align:right}figure{margin:1.5em 0}"
+        "figcaption,.m{color:#636c78}img{max-width:100%;height:auto}pre{background:#f3f4f6;"
+        "padding:12px;overflow:auto}";
+    return html + playStyle() + "</style></head><body>\n<h1>" + escaped(scene.title) + "</h1>\n";
+}
+
+QString schemeTable(const Comparison& comparison) {
+    QString html =
+        "<h2>Schemes</h2>\n<table><tr><th>scheme</th><th>discretization</th><th>step</th><th>steps</th>"
+        "<th>CPU time</th><th>largest error</th><th>order, claimed / measured</th><th>energy drift</th>"
+        "<th>outcome</th></tr>\n";
     for (const auto& result : comparison.schemes) html += schemeRow(*result);
     html += "</table>\n";
     if (comparison.reference.type != "none")
         html +=
             "<p class=m>Errors are distances from: " + escaped(comparison.reference.description) + ".</p>\n";
-    if (!parts.stage.isNull())
+    return html;
+}
+
+}  // namespace
+
+QString reportPage(const ExportParts& parts) {
+    const Comparison& comparison = *parts.comparison;
+    const Scene& scene = comparison.scene;
+    const Film film = filmOf(parts.comparison, parts.frames);
+    QString html = pageHead(scene);
+    if (!scene.lesson.empty()) html += "<p><em>" + escaped(scene.lesson) + "</em></p>\n";
+    html += filmHtml(film);
+    html += notesHtml(scene.notes);
+    if (!scene.source.empty()) html += "<p class=m>Source: " + escaped(scene.source) + "</p>\n";
+    html += schemeTable(comparison);
+    if (!parts.stage.isNull() && film.frames.empty())
         html += "<figure>" + embedded(parts.stage, "Stage") + "<figcaption>Stage</figcaption></figure>\n";
     for (const Figure& figure : parts.figures)
-        html += "<figure>" + embedded(figure) + "<figcaption>" + escaped(figure.summary) +
-                "</figcaption></figure>\n";
-    return html + "<h2>The same again</h2>\n<pre>" + escaped(commandsFor(parts)) +
-           "</pre>\n<p class=m>In the folder of scene.json.</p>\n</body></html>\n";
+        html += "<figure>" + movingFigureHtml(figure, figureSize.width(), figureSize.height(), film) +
+                "<figcaption>" + escaped(figure.summary) + "</figcaption></figure>\n";
+    html +=
+        "<h2>The same again</h2>\n<pre>" + escaped(commandsFor(parts)) +
+        "</pre>\n<p class=m>In the folder of scene.json, which is this text; Extremal also takes it from the "
+        "clipboard (Ctrl+Shift+V).</p>\n<details><summary>scene.json</summary><pre>" +
+        escaped(writeJson(toValue(scene))) + "</pre></details>\n";
+    return html + "<script>" + playScript() + "</script>\n</body></html>\n";
 }
 
 std::vector<std::function<QString()>> exportSteps(const ExportParts& parts, const QString& folder) {

@@ -18,7 +18,8 @@ namespace extremal {
 struct ExportParts {
     std::shared_ptr<const Comparison> comparison;
     std::vector<Figure> figures;
-    QImage stage;  ///< null: there is none
+    QImage stage;     ///< null: there is none
+    int frames = 90;  ///< of the page that plays; 0: it stands still
 };
 
 /// An export in steps, each of a tenth of a second or so, which return what went wrong, empty if nothing did.
@@ -29,8 +30,8 @@ std::vector<std::function<QString()>> exportSteps(const ExportParts& parts, cons
 /// All steps at once.
 QString exportFolder(const ExportParts& parts, const QString& folder);
 
-/// One file of HTML with everything in it: notes, schemes with their errors and costs, pictures as SVG. Any
-/// thread may make it.
+/// One file of HTML with everything in it: notes, schemes with their errors and costs, pictures as SVG, the
+/// scene as text, and the motion, which plays (playing_page.hpp). Any thread may make it.
 QString reportPage(const ExportParts& parts);
 
 /// The stage at evenly spaced times, one picture "frame-0001.png" per step. `picture`: of the stage

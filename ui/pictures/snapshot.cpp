@@ -50,34 +50,6 @@ std::vector<View> chooseViews(const Scene& scene, const std::string& name) {
     return views;
 }
 
-void checkView(const Scene& scene, const std::string& name) {
-    if (name == "all") {
-        if (chooseViews(scene, name).empty())
-            throw SnapshotError(Kind::unusable, "--view", "the scene has no view that can be drawn",
-                                "name one with --view; extremal list views shows them");
-        return;
-    }
-    std::vector<std::string> names = {"all"};
-    for (const ViewEntry& entry : viewEntries()) names.push_back(entry.item.id);
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
-        throw SnapshotError(Kind::unusable, "--view", "there is no view \"" + name + "\"",
-                            suggestName(name, names));
-    }
-    const System system = findModel(scene.model.type)->make(scene.model);
-    const bool isInScene =
-        std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == name; });
-    if (const std::string missing = isInScene ? "" : missingFor({name, "", ""}, system); !missing.empty())
-        throw SnapshotError(
-            Kind::unusable, "--view", name + " is not defined for " + scene.model.type,
-            "it needs " + missing + "; " + scene.model.type + " has " + joinNames(viewsOf(system)));
-    const ViewEntry* entry = findView(name);
-    if (entry && !entry->observable.empty() &&
-        std::find(scene.observe.begin(), scene.observe.end(), entry->observable) == scene.observe.end())
-        throw SnapshotError(Kind::unusable, "--view",
-                            "the scene does not observe what the view " + name + " shows",
-                            "add --set /observe/-=" + entry->observable);
-}
-
 QImage readBase(const QString& file) {
     QImageReader reader(file);
     reader.setAllocationLimit(1024);
@@ -184,6 +156,34 @@ void compareWithBase(const QImage& picture, const SnapshotRequest& request, Snap
 
 }  // namespace
 
+void checkSnapshotView(const Scene& scene, const std::string& name) {
+    if (name == "all") {
+        if (chooseViews(scene, name).empty())
+            throw SnapshotError(Kind::unusable, "--view", "the scene has no view that can be drawn",
+                                "name one with --view; extremal list views shows them");
+        return;
+    }
+    std::vector<std::string> names = {"all"};
+    for (const ViewEntry& entry : viewEntries()) names.push_back(entry.item.id);
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+        throw SnapshotError(Kind::unusable, "--view", "there is no view \"" + name + "\"",
+                            suggestName(name, names));
+    }
+    const System system = findModel(scene.model.type)->make(scene.model);
+    const bool isInScene =
+        std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == name; });
+    if (const std::string missing = isInScene ? "" : missingFor({name, "", ""}, system); !missing.empty())
+        throw SnapshotError(
+            Kind::unusable, "--view", name + " is not defined for " + scene.model.type,
+            "it needs " + missing + "; " + scene.model.type + " has " + joinNames(viewsOf(system)));
+    const ViewEntry* entry = findView(name);
+    if (entry && !entry->observable.empty() &&
+        std::find(scene.observe.begin(), scene.observe.end(), entry->observable) == scene.observe.end())
+        throw SnapshotError(Kind::unusable, "--view",
+                            "the scene does not observe what the view " + name + " shows",
+                            "add --set /observe/-=" + entry->observable);
+}
+
 void checkSnapshot(const Scene& scene, const SnapshotRequest& request) {
     const QFileInfo file(request.file);
     const QString kind = file.suffix().toLower();
@@ -200,7 +200,7 @@ void checkSnapshot(const Scene& scene, const SnapshotRequest& request) {
     if (!(request.tolerance >= 0) || request.tolerance > 100)
         throw SnapshotError(Kind::unusable, "--tolerance",
                             "must be 0 to 100 percent, got " + formatNumber(request.tolerance));
-    checkView(scene, request.view);
+    checkSnapshotView(scene, request.view);
     if (!request.compareWith.isEmpty()) readBase(request.compareWith);
     const auto views = chooseViews(scene, request.view);
     if (std::any_of(views.begin(), views.end(), [](const View& v) { return v.id == "stage"; })) {

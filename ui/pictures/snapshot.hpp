@@ -62,6 +62,9 @@ public:
 /// scene, and what requireReplaceable does.
 void checkSnapshot(const Scene& scene, const SnapshotRequest& request);
 
+/// Throws SnapshotError if a view, or "all", cannot be drawn for the scene.
+void checkSnapshotView(const Scene& scene, const std::string& view);
+
 /// Draws, writes and compares. Throws SnapshotError.
 SnapshotResult makeSnapshot(std::shared_ptr<const Comparison> comparison, const SnapshotRequest& request);
 

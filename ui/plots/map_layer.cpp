@@ -104,29 +104,72 @@ QImage fadedCells(const HeatMap& heat, const Theme& theme) {
     return image;
 }
 
+namespace {
+
+/// The rectangles of the cells of a map on a painter.
+class CellPlaces {
+public:
+    CellPlaces(const QCPPainter& painter, const PixelMap& map, const HeatMap& heat)
+        : heat_(heat),
+          corner_(map(heat.left, heat.top)),
+          opposite_(map(heat.right, heat.bottom)),
+          isVector_(painter.modes().testFlag(QCPPainter::pmVectorized)),
+          finer_(std::max(1.0, painter.transform().m11())) {}
+
+    QRectF at(int column, int row) const {
+        return {QPointF(edge(corner_.x(), opposite_.x(), column, heat_.columns),
+                        edge(opposite_.y(), corner_.y(), row + 1, heat_.rows)),
+                QPointF(edge(corner_.x(), opposite_.x(), column + 1, heat_.columns),
+                        edge(opposite_.y(), corner_.y(), row, heat_.rows))};
+    }
+    /// The same, on vectors with a rim below the cells that are painted after it, to the right and above:
+    /// programs that show a page smooth each edge by itself, and the ground would shine through where two
+    /// cells only touch.
+    QRectF withRim(int column, int row) const {
+        constexpr double rim = 0.7;
+        const QRectF cell = at(column, row);
+        if (!isVector_) return cell;
+        return cell.adjusted(0, isPainted(column, row + 1) ? -rim : 0, isPainted(column + 1, row) ? rim : 0,
+                             0);
+    }
+
+private:
+    /// On whole pixels of pictures.
+    double edge(double from, double to, int i, int count) const {
+        const double place = from + (to - from) * i / count;
+        return isVector_ ? place : std::round(place * finer_) / finer_;
+    }
+    bool isPainted(int column, int row) const {
+        if (column >= heat_.columns || row >= heat_.rows) return false;
+        const auto i = static_cast<std::size_t>(column * heat_.rows + row);
+        return std::isfinite(heat_.values[i]) || faultOf(heat_.faults[i]) != Fault::none;
+    }
+
+    const HeatMap& heat_;
+    QPointF corner_, opposite_;
+    bool isVector_;
+    double finer_;
+};
+
+}  // namespace
+
 void drawMapCells(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared) {
     const HeatMap& heat = *shared.figure.heat();
-    const QPointF corner = map(heat.left, heat.top), opposite = map(heat.right, heat.bottom);
-    const auto edge = [](double from, double to, int i, int count) {
-        return std::round(from + (to - from) * i / count);
-    };
+    const CellPlaces places(painter, map, heat);
     const double decades = std::log10(heat.high / heat.low);
     painter.setAntialiasing(false);
     painter.setOpacity(shared.isStale ? 0.4 : 1);
     for (int column = 0; column < heat.columns; ++column)
         for (int row = 0; row < heat.rows; ++row) {
             const auto i = static_cast<std::size_t>(column * heat.rows + row);
-            const QRectF cell(QPointF(edge(corner.x(), opposite.x(), column, heat.columns),
-                                      edge(opposite.y(), corner.y(), row + 1, heat.rows)),
-                              QPointF(edge(corner.x(), opposite.x(), column + 1, heat.columns),
-                                      edge(opposite.y(), corner.y(), row, heat.rows)));
-            if (!map.rect.intersects(cell)) continue;
+            if (!map.rect.intersects(places.at(column, row))) continue;
             const double value = heat.values[i];
             if (std::isfinite(value))
-                painter.fillRect(cell, valueColour(value > 0 ? std::log10(value / heat.low) / decades : 0));
+                painter.fillRect(places.withRim(column, row),
+                                 valueColour(value > 0 ? std::log10(value / heat.low) / decades : 0));
             const Fault fault = faultOf(heat.faults[i]);
             if (fault != Fault::none && (fault == Fault::drifting) == std::isfinite(value))
-                fillFault(painter, cell, shared.theme, fault);
+                fillFault(painter, places.at(column, row), shared.theme, fault);
         }
     painter.setOpacity(1);
     painter.setAntialiasing(true);

@@ -25,6 +25,7 @@ void PlotGroup::add(PlotWidget* plot) {
         timeRange_ = range;
         for (PlotWidget* p : plots_)
             if (p != plot) p->setTimeRange(range);
+        emit timeRangeChanged(range);
     });
 }
 

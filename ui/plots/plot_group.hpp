@@ -27,6 +27,7 @@ public:
 signals:
     void cursorMoved(double t);
     void pointClicked(int style);
+    void timeRangeChanged(std::optional<PlotRange> range);  ///< of all plots over time; none: all times
     void saveFailed(const QString& reason);
 
 private:

@@ -292,7 +292,9 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
                                                : shared_.colorOf(series.style);
     if (shared_.isFaded(series)) color = shared_.theme.pale(color, fadedLine);
     if (hasLine(series.kind)) {
-        const double width = series.style == formulaStyle ? 1.1 : isHighlighted ? 2.4 : 1.5;
+        const double width = shared_.theme.lineWidth * (series.style == formulaStyle ? 1.1
+                                                        : isHighlighted              ? 2.4
+                                                                                     : 1.5);
         QPen pen(color, width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
         if (!style.dash.isEmpty() && !series.shade) pen.setDashPattern(style.dash);
         const bool isCurve = isParametric(series.kind);

@@ -28,8 +28,6 @@ QPainter& FigurePainter::painter() { return impl_->painter; }
 
 namespace {
 
-constexpr double padding = 12;
-
 double drawHeader(QPainter& painter, const QRectF& rect, const Figure& figure, const Theme& theme) {
     const QFontMetricsF titleMetrics(theme.title());
     const QString title =
@@ -73,8 +71,8 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
         }
         if (painter) {
             const SeriesStyle style = theme.series(s.style);
-            QPen pen(s.tone == Tone::pale ? theme.pale(style.color, paleLine) : style.color, 1.8,
-                     Qt::SolidLine, Qt::FlatCap);
+            QPen pen(s.tone == Tone::pale ? theme.pale(style.color, paleLine) : style.color,
+                     1.8 * theme.lineWidth, Qt::SolidLine, Qt::FlatCap);
             if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
             const double middle = y + metrics.height() / 2;
             if (hasLine(s.kind)) {
@@ -98,6 +96,38 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
     return isNamed ? y + rowHeight - rect.top() : 0;
 }
 
+namespace {
+
+constexpr double headerGap = 4, leastWithLegend = 150;
+
+/// The axis on the left has its own margin, which reaches into the padding.
+int overhangOf(const PlotOptions& options) { return std::min(8, static_cast<int>(options.padding)); }
+
+/// What header and legend leave of a rectangle.
+QRectF insideOf(QRectF area, const Figure& figure, const Theme& theme, const PlotOptions& options) {
+    area.adjust(options.padding, options.padding, -options.padding, -std::min(4.0, options.padding));
+    if (options.hasHeader)
+        area.setTop(area.top() + std::ceil(QFontMetricsF(theme.title()).height()) + headerGap);
+    if (options.hasLegend && area.height() > leastWithLegend)
+        area.setTop(area.top() + drawLegend(nullptr, area, figure, theme) + 2);
+    return area;
+}
+
+QSize sizeInside(const QRectF& area, const PlotOptions& options) {
+    return {static_cast<int>(area.width()) + overhangOf(options), static_cast<int>(area.height())};
+}
+
+void setUp(QCustomPlot& plot, FigurePlot& content, const Figure& figure, const PlotOptions& options) {
+    plot.setBackground(Qt::NoBrush);
+    QMargins margins = plot.axisRect()->minimumMargins();
+    margins.setLeft(std::max(margins.left(), options.leftMargin));
+    plot.axisRect()->setMinimumMargins(margins);
+    content.setFigure(figure);
+    content.cursors().time = options.cursor;
+}
+
+}  // namespace
+
 void FigurePainter::draw(const Figure& figure, const QRectF& rect, const Theme& theme,
                          const PlotOptions& options) {
     QCPPainter& painter = impl_->painter;
@@ -112,24 +142,33 @@ void FigurePainter::draw(const Figure& figure, const QRectF& rect, const Theme& 
     } else {
         painter.fillRect(area, theme.panel);
     }
-    area.adjust(padding, padding, -padding, -4);
-    if (options.hasHeader) area.setTop(area.top() + drawHeader(painter, area, figure, theme) + 4);
-    if (options.hasLegend && area.height() > 150)
-        area.setTop(area.top() + drawLegend(&painter, area, figure, theme) + 2);
-
-    const QSize size(static_cast<int>(area.width()) + 8, static_cast<int>(area.height()));
-    if (size.width() > 40 && size.height() > 40) {
+    area = insideOf(area, figure, theme, options);
+    double top = options.padding;
+    const QRectF words(area.left(), top, area.width(), area.bottom() - top);
+    if (options.hasHeader) top += drawHeader(painter, words, figure, theme) + headerGap;
+    if (options.hasLegend && area.bottom() - top > leastWithLegend)
+        drawLegend(&painter, QRectF(area.left(), top, area.width(), area.bottom() - top), figure, theme);
+    if (const QSize size = sizeInside(area, options); size.width() > 40 && size.height() > 40) {
         QCustomPlot plot;
         FigurePlot content(plot, theme);
-        plot.setBackground(Qt::NoBrush);
+        setUp(plot, content, figure, options);
         content.setPrintDensity(impl_->isVector ? 4 : std::max(1.0, painter.transform().m11()));
-        content.setFigure(figure);
-        content.cursors().time = options.cursor;
         content.prepare(size);
-        painter.translate(std::round(area.left()) - 8, std::round(area.top()));
+        painter.translate(std::round(area.left()) - overhangOf(options), std::round(area.top()));
         plot.toPainter(&painter, size.width(), size.height());
     }
     painter.restore();
+}
+
+int FigurePainter::leftMargin(const Figure& figure, const QSizeF& size, const Theme& theme,
+                              const PlotOptions& options) {
+    const QSize inside = sizeInside(insideOf(QRectF(QPointF(0, 0), size), figure, theme, options), options);
+    if (inside.width() <= 40 || inside.height() <= 40) return 0;
+    QCustomPlot plot;
+    FigurePlot content(plot, theme);
+    setUp(plot, content, figure, options);
+    content.prepare(inside);
+    return plot.axisRect()->margins().left();
 }
 
 QImage renderFigure(const Figure& figure, QSize size, const Theme& theme, double scale,

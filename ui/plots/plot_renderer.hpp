@@ -6,13 +6,13 @@
 /// Sizes are in device-independent pixels (96 to the inch).
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <optional>
 #include <QImage>
 #include <QRectF>
 #include <QSize>
 #include <QString>
-#include <functional>
-#include <memory>
-#include <optional>
 
 #include "engine/figure/figure.hpp"
 #include "ui/base/theme.hpp"
@@ -26,6 +26,8 @@ struct PlotOptions {
     bool hasHeader = true;         ///< title and subtitle above the plot
     bool hasLegend = true;         ///< line samples and names of the schemes
     bool isCard = false;           ///< rounded corners and a hairline around, for plots beside each other
+    double padding = 12;           ///< around the plot
+    int leftMargin = 0;            ///< of the axis on the left at least, for plots above each other to align
     std::optional<double> cursor;  ///< a time, marked
 };
 
@@ -37,6 +39,8 @@ public:
     ~FigurePainter();
     QPainter& painter();
     void draw(const Figure& figure, const QRectF& rect, const Theme& theme, const PlotOptions& options = {});
+    /// The room that the axis on the left of a figure needs in a rectangle of this size.
+    int leftMargin(const Figure& figure, const QSizeF& size, const Theme& theme, const PlotOptions& options);
 
 private:
     struct Impl;

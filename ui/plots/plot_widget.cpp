@@ -51,7 +51,7 @@ PlotWidget::PlotWidget(const Theme& theme, QWidget* parent) : QWidget(parent), i
     impl_->chip->hide();
     connect(impl_->chip, &QPushButton::clicked, this, &PlotWidget::fit);
     impl_->table = new HoverTable(this);
-    setFocusPolicy(Qt::ClickFocus);
+    setFocusPolicy(Qt::StrongFocus);
     setAccessibleName(tr("Plot"));  // until it has a figure
     impl_->plot->installEventFilter(this);
 }
@@ -149,6 +149,14 @@ void PlotWidget::back() {
 }
 
 const Figure& PlotWidget::figure() const { return impl_->content->figure(); }
+Figure PlotWidget::visibleFigure() const {
+    Figure visible = figure();
+    if (!isUserZoomed()) return visible;
+    const PlotRange x = visibleRange(PlotAxis::x), y = visibleRange(PlotAxis::y);
+    visible.x.range = {x.low, x.high};
+    visible.y.range = {y.low, y.high};
+    return visible;
+}
 bool PlotWidget::isUserZoomed() const { return impl_->content->view().isUserChosen(); }
 bool PlotWidget::isUserZoomed(PlotAxis axis) const { return impl_->content->view().isUserChosen(axis); }
 PlotRange PlotWidget::visibleRange(PlotAxis axis) const { return impl_->content->view().range(axis); }
@@ -217,6 +225,10 @@ void PlotWidget::keyPressEvent(QKeyEvent* event) {
     else if (const auto row = impl_->rowAt(impl_->content->cursors().hoverPoint);
              row && (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter))
         emit rowChosen(*row);
+    else if (event->key() == Qt::Key_Plus || event->key() == Qt::Key_Equal)
+        zoomAboutMiddle(0.8);
+    else if (event->key() == Qt::Key_Minus)
+        zoomAboutMiddle(1.25);
     else if (level() && (event->key() == Qt::Key_Up || event->key() == Qt::Key_Down))
         emit levelMoved(*level() * std::pow(10, event->key() == Qt::Key_Up ? 0.1 : -0.1));
     else

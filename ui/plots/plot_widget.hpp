@@ -2,11 +2,12 @@
 /// A figure on the screen, to look into: the same drawing as in snapshots, with zoom, cursors and saving.
 ///
 /// Wheel: zoom at the pointer, on an axis only that axis; drag: pan; Ctrl+drag: zoom into a box; double
-/// click: fit; Backspace: previous view; right click: menu; a click on a cell of a map, or Return over it,
-/// chooses its case, and a click on a point with a row of a study that row; a line across (setLevel) is
-/// dragged, or moved with Up and Down; the handle (setHandle) is dragged; where places can be clicked
-/// (setClickable), a click beside the curves is one. Once the user has zoomed, new data do not move the view;
-/// the "auto" chip gives that back. The cursor is a time, shared with other plots through PlotGroup.
+/// click: fit; Backspace: previous view; + and -: zoom by keys; right click or the menu key: menu; a click on
+/// a cell of a map, or Return over it, chooses its case, and a click on a point with a row of a study that
+/// row; a line across (setLevel) is dragged, or moved with Up and Down; the handle (setHandle) is dragged;
+/// where places can be clicked (setClickable), a click beside the curves is one. Once the user has zoomed,
+/// new data do not move the view; the "auto" chip gives that back. The cursor is a time, shared with other
+/// plots through PlotGroup.
 #pragma once
 
 #include <QPointF>
@@ -54,6 +55,7 @@ public:
     /// PNG, PDF, SVG or CSV by the ending. False, with the reason, if it cannot be written.
     bool save(const QString& path, double scale = 1, QString* error = nullptr);
     const Figure& figure() const;
+    Figure visibleFigure() const;  ///< with the ranges that are in sight
     bool isUserZoomed() const;
     bool isUserZoomed(PlotAxis axis) const;
     PlotRange visibleRange(PlotAxis axis) const;
@@ -76,6 +78,7 @@ signals:
     void rowChosen(std::size_t row);  ///< of a study: what the point stands for
     void levelMoved(double y);
     void placeClicked(double x, double y);
+    void orbitAsked(double x, double y);  ///< a periodic orbit near a place
     void handleMoved(double x, double y);
     void pinRequested(std::optional<double> t);
     void timeRangeChanged(std::optional<PlotRange> range);
@@ -88,6 +91,7 @@ protected:
 
 private:
     void zoomAt(const QWheelEvent& wheel);
+    void zoomAboutMiddle(double factor);  ///< by keys, both axes
     bool press(const QMouseEvent& mouse);
     void moveTo(QPointF at);
     void panTo(QPointF at);

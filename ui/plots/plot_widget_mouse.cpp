@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <QContextMenuEvent>
 #include <QClipboard>
+#include <QContextMenuEvent>
 #include <QMenu>
 
 #include "ui/plots/plot_impl.hpp"
@@ -72,6 +72,15 @@ void PlotWidget::zoomAt(const QWheelEvent& wheel) {
     view.remember();
     if (onX) view.zoom(PlotAxis::x, factor, valueAtPixel(map, PlotAxis::x, at));
     if (onY) view.zoom(PlotAxis::y, factor, valueAtPixel(map, PlotAxis::y, at));
+    afterZoom();
+}
+
+void PlotWidget::zoomAboutMiddle(double factor) {
+    ViewState& view = impl_->content->view();
+    const PixelMap map = impl_->content->pixelMap();
+    view.remember();
+    view.zoom(PlotAxis::x, factor, valueAtPixel(map, PlotAxis::x, map.rect.center()));
+    view.zoom(PlotAxis::y, factor, valueAtPixel(map, PlotAxis::y, map.rect.center()));
     afterZoom();
 }
 
@@ -248,6 +257,8 @@ void PlotWidget::openMenu(const QContextMenuEvent& context) {
         const QPointF place = s.placeAt(context.pos());
         menu.addAction(tr("Start a motion here"), this,
                        [this, place] { emit placeClicked(place.x(), place.y()); });
+        menu.addAction(tr("Find a periodic orbit near here"), this,
+                       [this, place] { emit orbitAsked(place.x(), place.y()); });
         menu.addSeparator();
     }
     if (const auto cell = s.cellAt(context.pos())) {
@@ -256,11 +267,7 @@ void PlotWidget::openMenu(const QContextMenuEvent& context) {
     }
     menu.addAction(tr("Copy picture"), this, &PlotWidget::copyImage);
     menu.addAction(tr("Copy visible data"), this, [this] {
-        Figure visible = figure();
-        const PlotRange x = visibleRange(PlotAxis::x), y = visibleRange(PlotAxis::y);
-        visible.x.range = {x.low, x.high};
-        visible.y.range = {y.low, y.high};
-        QApplication::clipboard()->setText(QString::fromStdString(figureCsv(visible, true)));
+        QApplication::clipboard()->setText(QString::fromStdString(figureCsv(visibleFigure(), true)));
     });
     menu.addAction(tr("Save as..."), this, &PlotWidget::saveDialog);
     menu.exec(context.globalPos());

@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QCloseEvent>
+#include <QDesktopServices>
 #include <QFileInfo>
 #include <QLabel>
 #include <QMenuBar>
@@ -81,7 +82,10 @@ MainWindow::MainWindow(const Theme& theme, bool isRemembered) : theme_(theme), i
     startPage_->setFocus();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+    QDesktopServices::unsetUrlHandler(QStringLiteral("handbook"));
+    QDesktopServices::unsetUrlHandler(QStringLiteral("preset"));
+}
 
 void MainWindow::connectState() {
     connect(workspace_, &Workspace::sceneChanged, this, &MainWindow::showScene);

@@ -32,6 +32,7 @@ class CellCosts;
 class CopiesWindow;
 class Discretizer;
 struct ExportParts;
+class FigureSheet;
 class HeaderBar;
 class HelpWindow;
 class InspectorWindow;
@@ -40,6 +41,7 @@ class LogWindow;
 class NeedsCard;
 class Notices;
 class NotesPage;
+class OrbitFinder;
 class OwnList;
 class OwnWindow;
 class PassportWindow;
@@ -84,6 +86,7 @@ public:
     Notices& notices() { return *notices_; }
     StudyPage& studies() { return *studies_; }
     NeedsCard& needs() { return *needs_; }
+    OrbitFinder& orbits() { return *orbits_; }
     RecordBar& record() { return *record_; }
     CellCosts& cellCosts() { return *cellCosts_; }
     Wanted& wanted() { return *wanted_; }
@@ -131,6 +134,12 @@ private:
     void startFromCursor();
     void shareWidth();
     void toggleWideDiscretizer();
+    void togglePresentation();
+    void addPresentationActions(const QString& menu);
+    void showOtherPlot(int by);
+    void startPresentation();
+    bool endPresentation();
+    void scaleLetters(double scale);
     bool isSceneInSight() const;
     void showStartPage();
     void showWork();
@@ -161,11 +170,15 @@ private:
                       const std::function<void(const QString&)>& use);
     void exportFrames();
     void startFrames(const QString& folder, int count);
-    void exportSized();
+    void showFigureSheet();
     void copyScene();
     void pasteScene();
     void showPalette();
+    void showPlotChoice();
     std::vector<PaletteEntry> paletteEntries();
+    std::vector<PaletteEntry> plotEntries();
+    void addSchemeEntries(std::vector<PaletteEntry>& entries);
+    void addPlaceEntries(std::vector<PaletteEntry>& entries);
     void showOwn();
     OwnList& ownList();
     double rowStep() const;
@@ -191,6 +204,7 @@ private:
     StartPage* startPage_;
     StudyPage* studies_;
     NeedsCard* needs_;
+    OrbitFinder* orbits_;
     Timeline* timeline_;
     ValuesTable* values_;
     HelpWindow* help_ = nullptr;
@@ -198,6 +212,7 @@ private:
     PassportWindow* passport_ = nullptr;
     InspectorWindow* inspector_ = nullptr;
     RaceWindow* race_ = nullptr;
+    FigureSheet* figureSheet_ = nullptr;
     CopiesWindow* copies_ = nullptr;
     OwnWindow* own_ = nullptr;
     OwnList* ownList_ = nullptr;
@@ -208,6 +223,13 @@ private:
     QWidget* leftPanel_;  ///< the scene, and the discretizer below it
     QScrollArea* left_;   ///< the scene
     bool isDiscretizerWide_ = false;
+    /// What the presentation has changed.
+    struct Presentation {
+        std::vector<QPointer<QWidget>> hidden;
+        double fontScale = 1;
+        bool wasFullScreen = false;
+    };
+    std::optional<Presentation> presentation_;
     TextView* notes_;
     QString shownNotes_;                               ///< their source
     QPointer<QWidget> focusBefore_;                    ///< what the start page has taken the focus from

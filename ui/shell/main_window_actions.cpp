@@ -20,6 +20,7 @@
 #include "ui/base/notices.hpp"
 #include "ui/base/save_dialog.hpp"
 #include "ui/compare/compare_view.hpp"
+#include "ui/compare/orbit_finder.hpp"
 #include "ui/compare/plot_edits.hpp"
 #include "ui/compare/starting.hpp"
 #include "ui/own/own_list.hpp"
@@ -89,38 +90,6 @@ void MainWindow::makeActions() {
                                 "searchHelp", "paper", "keys", "log", "about"});
 }
 
-void MainWindow::startLesson() {
-    if (!lesson_->hasLesson()) {
-        notices_->post({Notice::Kind::information,
-                        "lesson",
-                        tr("This scene has no lesson."),
-                        tr("the start page marks the presets that have one"),
-                        {{tr("Start page"), [this] { showStartPage(); }}}});
-        return;
-    }
-    tabs_->setCurrentIndex(0);
-    isToPlay_ = false;  // the lesson says when
-    lesson_->start();
-}
-
-void MainWindow::addLessonActions() {
-    const QString menu = tr("Help");
-    actions_->add(
-        "lesson", menu, tr("Start the lesson"), {QKeySequence(Qt::ALT | Qt::Key_L)},
-        [this] { startLesson(); }, tr("What this scene teaches, step by step"));
-    actions_->add(
-        "recordLesson", menu, tr("Record a lesson"), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_L)},
-        [this] { record_->start(); }, tr("What you do becomes the steps of a lesson of this scene"));
-    actions_->add("recordStep", menu, tr("Record this step"), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_R)},
-                  [this] { record_->isRecording() ? record_->recordStep() : record_->start(); });
-    actions_->add("lessonNext", menu, tr("Next step of the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Right)},
-                  [this] { lesson_->next(); });
-    actions_->add("lessonBack", menu, tr("Step back in the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Left)},
-                  [this] { lesson_->back(); });
-    actions_->add("lessonDo", menu, tr("Do the step of the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Return)},
-                  [this] { lesson_->doStep(); });
-}
-
 void MainWindow::openHandbook(const QUrl& url) {
     showHelp(url.hasFragment() ? url.path() + '#' + url.fragment() : url.path());
 }
@@ -158,8 +127,9 @@ void MainWindow::addFileActions() {
         if (PlotWidget* plot = compare_->currentPlot()) plot->saveDialog();
     });
     actions_->add(
-        "exportSized", menu, tr("Export plot with a size..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_P)},
-        [this] { exportSized(); }, tr("Width and height in millimetres, resolution in dots per inch"));
+        "figureSheet", menu, tr("Figure for a paper..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_P)},
+        [this] { showFigureSheet(); },
+        tr("Panels of the width of a column, in the letters of the document, with data and caption"));
     actions_->add(
         "exportFrames", menu, tr("Export the stage as frames..."),
         {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_F)}, [this] { exportFrames(); },
@@ -302,7 +272,7 @@ void MainWindow::addViewActions() {
     connect(plots, &QMenu::aboutToShow, this, [this, plots] { fillPlots(*plots); });
     actions_->addSubmenu(menu, plots);
     actions_->add("plots", menu, tr("Choose plots..."), {QKeySequence(Qt::Key_P)},
-                  [this, plots] { plots->popup(compare_->mapToGlobal(QPoint(24, 24))); });
+                  [this] { showPlotChoice(); });
     addLayoutActions(menu);
     actions_->add("theme", menu, tr("Light or dark"), {QKeySequence(Qt::CTRL | Qt::Key_T)}, [this] {
         Theme theme = theme_.isDark ? Theme::light() : Theme::dark();
@@ -327,12 +297,7 @@ void MainWindow::addViewActions() {
         showNormal();
         resize(1600, 1000);
     });
-    actions_->add("fullScreen", menu, tr("Full screen"), {QKeySequence(Qt::Key_F11)}, [this] {
-        if (isFullScreen())
-            showNormal();
-        else
-            showFullScreen();
-    });
+    addPresentationActions(menu);
 }
 
 /// The layout of the Compare page and the side panels, which the next session finds as they are.
@@ -374,8 +339,15 @@ void MainWindow::addRunActions() {
     actions_->add("play", menu, tr("Play or pause"), {QKeySequence(Qt::Key_Space)},
                   [this] { playback_->setPlaying(!playback_->isPlaying()); });
     const auto move = [this](int rows) { return [this, rows] { playback_->stepBy(rows, rowStep()); }; };
-    actions_->add("stepForward", menu, tr("One row forward"), {QKeySequence(Qt::Key_Right)}, move(1));
-    actions_->add("stepBack", menu, tr("One row back"), {QKeySequence(Qt::Key_Left)}, move(-1));
+    const auto turn = [this, move](int rows, void (LessonBar::*act)()) {
+        return [this, rows, act, go = move(rows)] {
+            presentation_ && lesson_->isRunning() ? std::invoke(act, lesson_) : go();
+        };
+    };
+    actions_->add("stepForward", menu, tr("One row forward, presented the next step"),
+                  {QKeySequence(Qt::Key_Right)}, turn(1, &LessonBar::next));
+    actions_->add("stepBack", menu, tr("One row back, presented the step before"),
+                  {QKeySequence(Qt::Key_Left)}, turn(-1, &LessonBar::back));
     actions_->add("pageForward", menu, tr("50 rows forward"), {QKeySequence(Qt::Key_PageDown)}, move(50));
     actions_->add("pageBack", menu, tr("50 rows back"), {QKeySequence(Qt::Key_PageUp)}, move(-50));
     actions_->add("home", menu, tr("To the start"), {QKeySequence(Qt::Key_Home)},
@@ -386,6 +358,10 @@ void MainWindow::addRunActions() {
         "startHere", menu, tr("Start from the state at the cursor"), {QKeySequence(Qt::CTRL | Qt::Key_I)},
         [this] { startFromCursor(); },
         tr("The initial data are where the selected scheme, or the first one, is at the cursor"));
+    actions_->add(
+        "periodicOrbit", menu, tr("Periodic orbit near the start"),
+        {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_C)}, [this] { orbits_->seek({}); },
+        tr("Newton's method on the tangent map of the selected scheme, or of the first one that is on"));
     QAction* const plays = actions_->add(
         "playWhenOpened", menu, tr("Play when a scene opens"), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_O)},
         [this] {
@@ -399,7 +375,8 @@ void MainWindow::addRunActions() {
     actions_->addSeparator(menu);
     actions_->add("restart", menu, tr("Compute again"), {QKeySequence(Qt::Key_R)}, [this] { run_->start(); });
     actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)}, [this] {
-        if (needs_->stop() || cellCosts_->stop()) return;
+        if (endPresentation()) return;
+        if (needs_->stop() || cellCosts_->stop() || orbits_->stop()) return;
         if (studies_->isVisible() && studies_->stop()) return;
         if (compare_->restore()) return;
         if (!run_->isRunning()) workspace_->selectScheme(-1);

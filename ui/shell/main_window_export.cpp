@@ -25,8 +25,8 @@
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/stage/stage_widget.hpp"
+#include "ui/windows/figure_sheet.hpp"
 #include "ui/windows/folder_dialog.hpp"
-#include "ui/windows/size_dialog.hpp"
 #include "ui/workspace/playback.hpp"
 #include "ui/workspace/run_control.hpp"
 #include "ui/workspace/workspace.hpp"
@@ -162,24 +162,27 @@ void MainWindow::startFrames(const QString& folder, int count) {
     continueExport(steps, {}, folder);
 }
 
-/// A plot on paper: millimetres and dots per inch.
-void MainWindow::exportSized() {
-    PlotWidget* const plot = compare_->currentPlot();
-    if (!plot) return;
-    auto* dialog = new SizeDialog(this);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &QDialog::accepted, this, [this, dialog, plot = QPointer(plot)] {
-        if (!plot) return;
-        const PrintSize size = dialog->chosen();
-        const QString path =
-            askForSave(this, tr("Save plot"), QString::fromStdString(plot->figure().view) + ".png",
-                       tr("Picture (*.png);;PDF (*.pdf);;SVG (*.svg)"));
-        if (path.isEmpty()) return;
-        const QString problem =
-            saveFigure(path, plot->figure(), size.pixels(), Theme::light(), size.dotsPerInch / 96.0, {});
-        tellOfExport(problem, path, QFileInfo(path).absolutePath());
-    });
-    dialog->open();
+/// With the plots as they are zoomed.
+void MainWindow::showFigureSheet() {
+    if (!run_->results()) return;
+    compare_->complete();
+    SheetContent content;
+    content.title = workspace_->scene().title;
+    content.scene = workspace_->path().isEmpty() ? workspace_->fileName() : workspace_->path();
+    const PlotWidget* const current = compare_->currentPlot();
+    for (const PlotWidget* plot : compare_->plots()) {
+        if (plot == current) content.current = content.figures.size();
+        content.figures.push_back(plot->visibleFigure());
+        if (plot->figure().x.isTime && plot->isUserZoomed(PlotAxis::x))
+            content.times = {plot->visibleRange(PlotAxis::x).low, plot->visibleRange(PlotAxis::x).high};
+    }
+    if (!figureSheet_) {
+        figureSheet_ = new FigureSheet(this);
+        connect(figureSheet_, &FigureSheet::saved, this, [this](const QString& file, const QString& problem) {
+            tellOfExport(problem, file, QFileInfo(file).absolutePath());
+        });
+    }
+    figureSheet_->open(std::move(content));
 }
 
 void MainWindow::copyScene() {

@@ -15,6 +15,7 @@
 #include "ui/base/card.hpp"
 #include "ui/base/notices.hpp"
 #include "ui/compare/compare_view.hpp"
+#include "ui/compare/orbit_finder.hpp"
 #include "ui/own/own_list.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/scene_panel.hpp"
@@ -184,12 +185,13 @@ QWidget* MainWindow::makeCentre(BackgroundSweep& sweep) {
     for (const QString& title : {tr("Compare"), tr("Notes"), tr("Studies")}) tabs_->addTab(title);
     column->addWidget(tabs_);
     column->addWidget(new Banners(*notices_));
-    lesson_ = new LessonBar(*workspace_, *playback_);
-    column->addWidget(lesson_);
-    record_ = new RecordBar(*workspace_, *playback_, [this] {
+    const auto viewInSight = [this] {
         const PlotWidget* const plot = compare_->currentPlot();
         return plot ? plot->figure().view : std::string();
-    });
+    };
+    lesson_ = new LessonBar(*workspace_, *playback_, viewInSight);
+    column->addWidget(lesson_);
+    record_ = new RecordBar(*workspace_, *playback_, viewInSight);
     column->addWidget(record_);
     makeTabPages(sweep);
     column->addWidget(pages_, 1);
@@ -235,6 +237,8 @@ void MainWindow::tellOfPlots() {
         tell("start", tr("No motion starts there: %1.").arg(reason),
              tr("choose a place inside the region that the energy admits"));
     });
+    orbits_ = new OrbitFinder(*workspace_, *notices_, this);
+    connect(compare_, &CompareView::orbitAsked, orbits_, &OrbitFinder::seek);
     connect(compare_, &CompareView::caseLoaded, this, [this, tell](const QString& text) {
         tell("case", tr("Loaded from the map: %1.").arg(text),
              tr("the dot in each map marks the scene; Ctrl+Z undoes this"),

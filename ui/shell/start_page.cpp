@@ -94,6 +94,12 @@ void StartPage::makeHead(QVBoxLayout& column) {
         if (const QStringList shown = shownPresets(); !shown.isEmpty()) emit presetChosen(shown.front());
     });
     head->addWidget(search_, 0, Qt::AlignVCenter);
+    auto* first = new QPushButton(tr("Why the energy stays"));
+    first->setObjectName("firstLesson");
+    first->setProperty("kind", "primary");
+    first->setToolTip(tr("A lesson of five steps, on a planet whose energy one scheme loses"));
+    connect(first, &QPushButton::clicked, this, [this] { emit lessonChosen(QStringLiteral("kepler")); });
+    head->addWidget(first, 0, Qt::AlignVCenter);
     auto* lessons = new QPushButton(tr("Lessons"));
     lessons->setObjectName("lessons");
     lessons->setToolTip(tr("Presets with steps that lead through them"));

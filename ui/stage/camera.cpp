@@ -40,8 +40,9 @@ std::array<Point, 3> Camera::axes() const {
     return {{{ca, 0, -sa}, {-sa * se, ce, -ca * se}, {sa * ce, se, ca * ce}}};
 }
 
-Point Camera::project(const Point& r) const {
-    const auto rows = axes();
+Point Camera::project(const Point& r) const { return project(r, axes()); }
+
+Point Camera::project(const Point& r, const std::array<Point, 3>& rows) const {
     const Point d = minus(r, centre);
     return {dot(rows[0], d) * pixelsPerUnit, dot(rows[1], d) * pixelsPerUnit,
             dot(rows[2], d) * pixelsPerUnit};

@@ -35,6 +35,8 @@ struct Camera {
     std::array<Point, 3> axes() const;
     /// Pixels from the middle, y up; the third entry grows towards the viewer.
     Point project(const Point& r) const;
+    /// The same with the rows of axes(), which many points share.
+    Point project(const Point& r, const std::array<Point, 3>& rows) const;
     /// The point of the plane through the centre that is seen at this pixel.
     Point unproject(double x, double y) const;
     bool operator==(const Camera&) const = default;

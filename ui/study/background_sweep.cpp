@@ -15,6 +15,7 @@
 #include "engine/study/sweep.hpp"
 #include "ui/base/background.hpp"
 #include "ui/workspace/run_control.hpp"
+#include "ui/study/problem_of.hpp"
 
 namespace extremal {
 namespace {
@@ -24,16 +25,6 @@ constexpr double longestRun = 0.1;  // seconds of a run that is still worth bein
 constexpr double stepRatio = 4;     // steps from so many times the scheme's own to as small a part of it
 constexpr int sweptPoints = 5;
 constexpr const char* otherSteps = "other steps";
-
-/// What decides on the errors of all schemes.
-Scene sweptProblem(Scene scene) {
-    scene.title = scene.source = scene.lesson = scene.notes = {};
-    scene.schemes.clear();
-    scene.views.clear();
-    scene.observe.clear();
-    scene.events.clear();
-    return scene;
-}
 
 bool isSameRun(SchemeSpec a, SchemeSpec b) {
     a.label = b.label = {};
@@ -92,7 +83,7 @@ BackgroundSweep::~BackgroundSweep() { stop_.request_stop(); }
 std::vector<SweptScheme> BackgroundSweep::known() const {
     std::vector<SweptScheme> all;
     const auto results = run_.results();
-    if (!results || !(sweptProblem(results->scene) == problem_)) return all;
+    if (!results || !(problemOf(results->scene) == problem_)) return all;
     for (const auto& scheme : results->schemes)
         for (const SweptScheme& swept : swept_)
             if (isSameRun(swept.spec, scheme->spec))
@@ -136,7 +127,7 @@ void BackgroundSweep::addLines(Figure& figure) const {
 void BackgroundSweep::start() {
     const auto results = run_.results();
     if (!results || !results->isFinished || run_.isRunning() || results->reference.type == "none") return;
-    const Scene problem = sweptProblem(results->scene);
+    const Scene problem = problemOf(results->scene);
     const bool isSameProblem = problem == problem_;
     std::vector<SchemeSpec> wanted;
     for (const auto& scheme : results->schemes) {

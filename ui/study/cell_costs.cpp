@@ -17,22 +17,14 @@
 #include "ui/panels/discretizer.hpp"
 #include "ui/workspace/wanted.hpp"
 #include "ui/workspace/workspace.hpp"
+#include "ui/study/problem_of.hpp"
+#include "engine/study/search/candidates.hpp"
 
 namespace extremal {
 namespace {
 
 constexpr int pauseMs = 400;
 constexpr double searchSeconds = 2;
-
-/// What decides on the costs.
-Scene measuredPart(Scene scene) {
-    scene.title = scene.source = scene.lesson = scene.notes = {};
-    scene.schemes.clear();
-    scene.views.clear();
-    scene.observe.clear();
-    scene.events.clear();
-    return scene;
-}
 
 /// A scheme of this discretization, with a step to begin with. Throws InvalidScene where the system does not
 /// take it.
@@ -45,21 +37,7 @@ ResolvedScheme schemeOfCell(const Discretization& cell, const std::string& label
     spec.step = {timeSpan(scene.scene).length() / steps, {}};
     spec.space = cell.space;
     spec.quadrature = cell.quadrature;
-    ResolvedScheme scheme = resolve(spec, scene.system.get());
-    const auto refuse = [](const std::string& why) { throw InvalidScene("/schemes", why); };
-    if (!scheme.fits(*scene.system)) refuse("does not take " + scene.system->id);
-    if (!scheme.properties.refusal.empty()) refuse(scheme.properties.refusal);
-    if (!scheme.properties.instability.empty()) refuse(scheme.properties.instability);
-    if (const auto* const own = scheme.family ? scheme.family->parts.find<StepOfSpace>() : nullptr) {
-        const auto parameter = [&](std::string_view name) {
-            return std::optional(scene.scene.model.number(name));
-        };
-        const auto implied = own->implied(scheme.discretization.space, scene.scene.model, parameter);
-        if (implied && !(implied->step > 0)) refuse("has no step on " + scene.system->id);
-        if (implied) scheme.spec.step = {implied->step, {}};
-    }
-    resolveSystem(scheme, scene.scene);
-    return scheme;
+    return acceptedBy(scene, spec);
 }
 
 /// Of the cell as it is: a search may have found a smaller degree to be enough.
@@ -121,7 +99,7 @@ bool CellCosts::isOn() const { return discretizer_.costs().isChecked(); }
 void CellCosts::toggle() { discretizer_.costs().toggle(); }
 
 bool CellCosts::isCurrent() const {
-    return scene_ && !isRunning_ && error_ == wanted_.error() && measuredPart(workspace_.scene()) == *scene_;
+    return scene_ && !isRunning_ && error_ == wanted_.error() && problemOf(workspace_.scene()) == *scene_;
 }
 
 bool CellCosts::stop() {
@@ -145,7 +123,7 @@ void CellCosts::refresh() {
         emit changed();
         return;
     }
-    if (scene_ && error_ == wanted_.error() && measuredPart(workspace_.scene()) == *scene_) return;
+    if (scene_ && error_ == wanted_.error() && problemOf(workspace_.scene()) == *scene_) return;
     clear();
     pause_.start();
     discretizer_.setStripText(
@@ -157,7 +135,7 @@ void CellCosts::measure() {
     if (!isOn() || !workspace_.hasScene()) return;
     if (!discretizer_.isCurrent()) return pause_.start();  // its cells are on their way
     stop_ = std::stop_source();
-    scene_ = measuredPart(workspace_.scene());
+    scene_ = problemOf(workspace_.scene());
     error_ = wanted_.error();
     isRunning_ = true;
     std::vector<Discretization> cells;

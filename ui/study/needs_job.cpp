@@ -9,19 +9,10 @@
 #include "engine/core/problem.hpp"
 #include "engine/study/catalog.hpp"
 #include "ui/base/background.hpp"
+#include "ui/study/problem_of.hpp"
 
 namespace extremal {
 namespace {
-
-/// What decides on the answers.
-Scene neededPart(Scene scene) {
-    scene.title = scene.source = scene.lesson = scene.notes = {};
-    scene.schemes.clear();
-    scene.views.clear();
-    scene.observe.clear();
-    scene.events.clear();
-    return scene;
-}
 
 QString titleOf(const Sweep& sweep, std::size_t scheme) {
     const ResolvedScheme& found = sweep.scene().schemes[scheme];
@@ -35,7 +26,7 @@ std::vector<NeedsRung> rungsOf(const Sweep& sweep) {
     std::vector<NeedsRung> all;
     std::size_t place = 0, before = 0;
     for (std::size_t i = 0; i < sweep.rows().size(); ++i) {
-        const SweepRow& row = sweep.rows()[i];
+        const SweepRow& row = sweep.answer(i);
         const PointResult& result = row.result;
         if (result.status == RunStatus::waiting) continue;
         const Value::Array& told = table[place++];
@@ -81,7 +72,7 @@ const NeedsAnswer& NeedsRung::answerFor(double error) const {
 
 NeedsJob::~NeedsJob() { stop_.request_stop(); }
 
-bool NeedsJob::isOf(const Scene& scene) const { return scene_ && neededPart(scene) == *scene_; }
+bool NeedsJob::isOf(const Scene& scene) const { return scene_ && problemOf(scene) == *scene_; }
 
 void NeedsJob::clear() {
     stop_.request_stop();
@@ -104,7 +95,7 @@ void NeedsJob::stop() {
 void NeedsJob::start(std::shared_ptr<const ResolvedScene> scene, const std::string& metric, double seconds) {
     stop_.request_stop();
     stop_ = std::stop_source();
-    scene_ = neededPart(scene->scene);
+    scene_ = problemOf(scene->scene);
     metric_ = metric;
     seconds_ = seconds;
     fraction_ = 0;

@@ -31,14 +31,17 @@ bool areSame(const Discretization& a, const Discretization& b) {
 
 }  // namespace
 
-int findScheme(const ResolvedScene& scene, const ChoiceGrid::Cell& cell) {
+int findScheme(const ResolvedScene& scene, const ChoiceGrid::Cell& cell, bool keepsEnergy) {
     const Discretization wanted{cell.discretization.space, cell.discretization.quadrature, {}};
     const Family* const family = familyOf(wanted.space);
     const auto* const identity = familyPart<SchemeIdentity>(wanted.space);
     int found = -1;
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
         const ResolvedScheme& scheme = scene.schemes[i];
-        const Discretization* const plain = scheme.plain();
+        const bool isKeeping = !scheme.isComposed() && isEnergyAlone(scheme.spec.keep);
+        const Discretization* const plain = !keepsEnergy ? scheme.plain()
+                                            : isKeeping  ? &scheme.discretization
+                                                         : nullptr;
         if (!plain || scheme.family != family) continue;
         const bool isSame = cell.isOwn ? isOfKind(*plain, wanted)
                             : identity ? identity->isSame(*plain, scheme.spec.step.value, wanted)

@@ -26,11 +26,7 @@ const char* const scene =
         "reference": "none", "observe": ["energy"],
         "views": [{"view": "section", "range": {"x": [-0.5, 0.7], "y": [-0.5, 0.5]}}]})json";
 
-PlotWidget* sectionOf(MainWindow& window) {
-    for (PlotWidget* plot : window.compareView().plots())
-        if (plot->figure().view == "section") return plot;
-    return nullptr;
-}
+PlotWidget* sectionOf(MainWindow& window) { return plotOf(window, "section"); }
 
 /// The pixel of a place.
 QPoint pixelOf(PlotWidget& plot, double x, double y) {

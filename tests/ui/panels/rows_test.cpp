@@ -81,6 +81,26 @@ private slots:
         window.workspace().undo();
         QCOMPARE(window.h(0), before);  // one change
     }
+    /// Below the name the step makes the card lower, and a scroll bar may go: it does not come back by that.
+    void theStepDoesNotComeBackByTheWidthOfAScrollBar() {
+        Window window;
+        SchemeCard card(window.workspace(), 0, Theme::light());
+        card.showSpec();
+        card.show();
+        const auto* const step = card.findChild<ScrubLabel*>("stepLabel");
+        const auto isBelow = [&](int width) {
+            card.resize(width, card.height());
+            card.layout()->activate();
+            return step->y() > card.height() / 4 || step->x() < width / 2;
+        };
+        int width = 600;
+        QVERIFY(!isBelow(width));
+        while (width > 40 && !isBelow(width)) --width;
+        const int least = width + 1;  // beside the name
+        QVERIFY(isBelow(least - 14));
+        QVERIFY(isBelow(least));
+        QVERIFY(!isBelow(least + 40));
+    }
     void aDragScalesTheStepAndAClickOpensIt() {
         Window window;
         const double before = window.h(1);

@@ -74,7 +74,7 @@ private slots:
         QVERIFY(isMarked("energy"));
         QVERIFY(!isMarked("phase"));
 
-        const LessonStep& step = bar.steps()[1];
+        const LessonStep step = bar.steps()[1];  // a copy: an edit makes the bar read its steps again
         QVERIFY(!isReached(step, window.workspace().document()));
         press(window, "lessonDo");
         QVERIFY(isReached(step, window.workspace().document()));

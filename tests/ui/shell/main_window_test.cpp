@@ -33,6 +33,7 @@
 #include "ui/compare/compare_view.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/scheme_editor.hpp"
+#include "ui/pictures/export_folder.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/stage/stage_widget.hpp"
@@ -54,9 +55,7 @@ PlotWidget* mapOf(MainWindow& window) {
     if (!window.open("preset:stability-limit") || !waitForResults(window) ||
         !window.workspace().edit({{"/views", parseJson(view)}}, "a map") || !waitForResults(window))
         return nullptr;
-    for (PlotWidget* plot : window.compareView().plots())
-        if (plot->figure().view == "parameter-map") return plot;
-    return nullptr;
+    return plotOf(window, "parameter-map");
 }
 
 }  // namespace
@@ -155,8 +154,8 @@ private slots:
         const QString page = QString::fromUtf8(report.readAll());
         for (const SchemeSpec& s : window.workspace().scene().schemes)
             QVERIFY(page.contains(QString::fromStdString(s.label).toHtmlEscaped()));
-        QCOMPARE(page.count("<img "), pictures.size() + 1);
-        QVERIFY(!page.contains("http") && !page.contains("file:"));  // whole in itself
+        QCOMPARE(page.count("<img "), pictures.size() + ExportParts{}.frames);  // of the stage
+        QVERIFY(!page.contains("http:") && !page.contains("https:") && !page.contains("file:"));
         // The commands make the figures as well.
         QProcess shell;
         shell.setWorkingDirectory(folder.path());

@@ -15,7 +15,6 @@
 #include "ui/shell/actions.hpp"
 #include "ui/windows/copies_window.hpp"
 #include "ui/windows/race_window.hpp"
-#include "ui/windows/size_dialog.hpp"
 #include "ui/workspace/wanted.hpp"
 #include "ui/workspace/workspace.hpp"
 
@@ -63,12 +62,11 @@ private slots:
         QVERIFY(distance.y.back() > distance.y.front());
     }
     void aPictureHasItsSizeOnPaper() {
-        const PrintSize size{100, 50, 300};
-        QCOMPARE(size.pixels(), QSize(378, 189));
+        constexpr double dotsPerInch = 300;
+        const QSize size(378, 189);  // of 100 x 50 mm, in pixels of 1/96 inch
         QTemporaryDir folder;
         const QString file = folder.filePath("a.png");
-        QCOMPARE(saveFigure(file, Figure{}, size.pixels(), Theme::light(), size.dotsPerInch / 96.0, {}),
-                 QString());
+        QCOMPARE(saveFigure(file, Figure{}, size, Theme::light(), dotsPerInch / 96, {}), QString());
         const QImage image(file);
         QVERIFY(std::abs(image.width() - 100 / 25.4 * 300) < 3);
         QVERIFY(std::abs(image.dotsPerMeterX() - 300 / 0.0254) < 2);

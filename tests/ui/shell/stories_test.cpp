@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Four people use the window from its start to what they came for, each with pictures in order
+/// (tests/output/stories): what they click and press is counted.
+#include <QApplication>
+#include <QClipboard>
+#include <QDir>
+#include <QFile>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QTabBar>
+#include <QTest>
+
+#include <functional>
+
+#include "tests/tools/test.hpp"
+#include "tests/ui/enter.hpp"
+#include "tests/ui/window.hpp"
+#include "ui/plots/plot_widget.hpp"
+#include "ui/shell/actions.hpp"
+#include "ui/shell/lesson_bar.hpp"
+#include "ui/shell/record_bar.hpp"
+#include "ui/shell/start_page.hpp"
+#include "ui/stage/stage_widget.hpp"
+#include "ui/windows/figure_sheet.hpp"
+#include "ui/windows/palette_dialog.hpp"
+#include "ui/workspace/playback.hpp"
+#include "ui/workspace/workspace.hpp"
+
+namespace extremal::stories_test {
+
+class StoriesTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<MainWindow> window_;
+    QString story_;
+    int pictures_ = 0, acts_ = 0;  ///< clicks and keys
+
+    void begin(const QString& story) {
+        story_ = story;
+        pictures_ = acts_ = 0;
+        window_ = std::make_unique<MainWindow>(Theme::light(), false);
+        window_->resize(1600, 1000);
+        window_->show();
+        QTRY_VERIFY(!window_->findChild<StartPage*>()->shownPresets().isEmpty());
+        picture("start");
+    }
+    void picture(const char* what, QWidget* of = nullptr) {
+        const QString folder = QStringLiteral(EXTREMAL_TEST_OUTPUT "/stories");
+        QDir().mkpath(folder);
+        for (int i = 0; i < 20; ++i) QCoreApplication::processEvents();
+        (of ? of : window_.get())
+            ->grab()
+            .save(QString("%1/%2-%3-%4.png").arg(folder, story_).arg(++pictures_).arg(what));
+    }
+    /// A key of the window, by the action that it belongs to.
+    void press(const char* action) {
+        ++acts_;
+        QVERIFY2(window_->actions().find(action)->isEnabled(), action);
+        window_->actions().find(action)->trigger();
+    }
+    void click(QWidget* widget) {
+        QVERIFY(widget && widget->isVisible() && widget->isEnabled());
+        ++acts_;
+        QTest::mouseClick(widget, Qt::LeftButton);
+    }
+    LessonBar& lesson() { return *window_->findChild<LessonBar*>("lesson"); }
+    /// Types into the palette and takes what is found first.
+    void find(const QString& words) {
+        press("palette");
+        auto* const input = window_->findChild<PaletteDialog*>()->findChild<QLineEdit*>();
+        QTest::keyClicks(input, words);
+        ++acts_;
+        QTest::keyClick(input, Qt::Key_Return);
+        QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    }
+
+private slots:
+    void initTestCase() {
+        loadFonts();
+        applyTheme(*qApp, Theme::light());
+    }
+    void cleanup() { window_.reset(); }
+
+    /// Why does RK4 lose energy? Found in two clicks, understood in the steps of the lesson.
+    void student() {
+        begin("student");
+        click(window_->findChild<QPushButton*>("firstLesson"));
+        QVERIFY(acts_ <= 2);
+        QVERIFY(waitForResults(*window_));
+        QVERIFY(lesson().isRunning());
+        QVERIFY(lesson().steps().size() <= 6);
+        while (lesson().isRunning()) {
+            if (!lesson().steps()[static_cast<std::size_t>(lesson().at())].set.empty()) press("lessonDo");
+            QVERIFY(waitForResults(*window_));
+            picture("step");
+            press("lessonNext");
+        }
+    }
+
+    /// An own Lagrangian, three steps of a lesson, presented, and shared as text.
+    void teacher() {
+        begin("teacher");
+        press("newLagrangian");
+        auto* const formula = window_->findChild<QPlainTextEdit*>("field.lagrangian");
+        QVERIFY(formula && formula->hasFocus());
+        QTest::keyClicks(formula, "m/2*x_t^2 - k/2*x^2 - b/4*x^4");
+        window_->compareView().stage()->setFocus();
+        QVERIFY(waitForResults(*window_));
+        picture("typed");
+        press("recordLesson");
+        auto* const told = window_->findChild<QLineEdit*>("stepText");
+        for (const char* text :
+             {"A spring that stiffens.", "Look at the energy.", "Every scheme has its error."}) {
+            QTest::keyClicks(told, text);
+            press("recordStep");
+        }
+        picture("recorded");
+        window_->record().finish();
+        press("present");
+        QVERIFY(waitForResults(*window_));
+        QCOMPARE(lesson().steps().size(), std::size_t{3});
+        for (int i = 0; i < 3; ++i) {
+            picture("presented");
+            press("stepForward");
+        }
+        press("stop");
+        press("copyScene");
+        QVERIFY(QApplication::clipboard()->text().contains("A spring that stiffens."));
+        picture("shared");
+    }
+
+    /// The cheapest for an error, and a figure with panels for a paper of two columns.
+    void researcher() {
+        begin("researcher");
+        find("open preset: kepler");
+        QVERIFY(waitForResults(*window_));
+        picture("kepler");
+        press("figureSheet");
+        auto* const sheet = window_->findChild<FigureSheet*>();
+        PaperStyle style = sheet->style();
+        style.width = 178;
+        sheet->setStyle(style);
+        QTRY_COMPARE(sheet->style().width, 178.0);
+        QTRY_VERIFY(!sheet->preview().isNull());
+        picture("sheet", sheet);
+        const QImage seenByAll = sheet->preview();
+        sheet->setSight(Sight::withoutGreen);
+        QTRY_VERIFY(sheet->preview() != seenByAll);
+        picture("sheet-seen-without-green", sheet);
+        sheet->save(QStringLiteral(EXTREMAL_TEST_OUTPUT "/stories/paper.pdf"));
+        QVERIFY(QFile::exists(QStringLiteral(EXTREMAL_TEST_OUTPUT "/stories/paper.csv")));
+        sheet->close();
+    }
+
+    /// Two bodies, a stiff spring, a damper and a wall: which steps are usable?
+    void engineer() {
+        begin("engineer");
+        press("newLagrangian");
+        auto* const formula = window_->findChild<QPlainTextEdit*>("field.lagrangian");
+        QTest::keyClicks(formula, "m/2*x_t^2 + m/2*y_t^2 - k/2*(y - x)^2 - g*m*(x + y)");
+        window_->compareView().stage()->setFocus();
+        // A typed Lagrangian is checked beside the window before it is the scene's.
+        QTRY_VERIFY_WITH_TIMEOUT(
+            window_->workspace().scene().model.text("lagrangian").find("k/2*(y - x)^2") != std::string::npos,
+            20000);
+        QVERIFY(waitForResults(*window_));
+        QVERIFY(window_->workspace().edit({{"/model/dissipation", "c/2*(y_t - x_t)^2"},
+                                           {"/model/parameters/c", 0.2},
+                                           {"/model/parameters/k", 1000.0}},
+                                          "damper"));
+        QVERIFY(waitForResults(*window_));
+        picture("two-bodies");
+        window_->findChild<QTabBar*>()->setCurrentIndex(2);
+        ++acts_;
+        picture("studies");
+    }
+};
+
+EXTREMAL_TEST(StoriesTest)
+
+}  // namespace extremal::stories_test
+
+#include "stories_test.moc"
