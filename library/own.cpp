@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "extremal/own.hpp"
 
-#include <Eigen/LU>
-
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "engine/core/algebra/lu.hpp"
 #include "engine/core/own_entries.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/model/system.hpp"

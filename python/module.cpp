@@ -327,6 +327,48 @@ void bindStudy(py::module_& m) {
         .def("figures", &api::Study::figures);
 }
 
+void bindAnswers(py::module_& m) {
+    m.def(
+        "orbit",
+        [](const api::Scene& scene, const std::string& scheme, const std::string& period,
+           const std::optional<double>& energy, const std::string& hold, const std::string& follow,
+           int points) {
+            return objectOf(unlocked([&] {
+                return api::orbit(scene, {scheme, period, energy, hold, follow, points});
+            }));
+        },
+        py::arg("scene"), py::kw_only(), py::arg("scheme") = "", py::arg("period") = "",
+        py::arg("energy") = py::none(), py::arg("hold") = "", py::arg("follow") = "", py::arg("points") = 0);
+    m.def(
+        "fit",
+        [](const api::Scene& scene, const std::string& csv, const std::vector<std::string>& free,
+           const std::string& scheme, const std::vector<std::string>& columns, bool bias) {
+            return objectOf(unlocked([&] { return api::fit(scene, csv, {free, scheme, columns, bias}); }));
+        },
+        py::arg("scene"), py::arg("csv"), py::arg("free"), py::kw_only(), py::arg("scheme") = "",
+        py::arg("columns") = std::vector<std::string>(), py::arg("bias") = true);
+    m.def(
+        "gradient",
+        [](const api::Scene& scene, const std::vector<std::string>& with, const std::string& of,
+           const std::string& over, const std::string& scheme) {
+            return objectOf(unlocked([&] { return api::gradient(scene, {of, over, with, scheme}); }));
+        },
+        py::arg("scene"), py::arg("with_respect_to"), py::kw_only(), py::arg("of") = "", py::arg("over") = "",
+        py::arg("scheme") = "");
+    m.def(
+        "steer",
+        [](const api::Scene& scene, const std::string& over, const std::string& of,
+           const std::vector<std::string>& end, const std::vector<std::string>& controls,
+           const std::vector<std::string>& bounds, const std::string& scheme) {
+            return objectOf(unlocked([&] {
+                return api::steer(scene, {over, of, end, controls, bounds, scheme});
+            }));
+        },
+        py::arg("scene"), py::kw_only(), py::arg("over") = "", py::arg("of") = "",
+        py::arg("end") = std::vector<std::string>(), py::arg("controls") = std::vector<std::string>(),
+        py::arg("bounds") = std::vector<std::string>(), py::arg("scheme") = "");
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_extremal, m) {
@@ -352,6 +394,7 @@ PYBIND11_MODULE(_extremal, m) {
     bindFigure(m);
     bindResult(m);
     bindStudy(m);
+    bindAnswers(m);
     bindOwnSystem(m);
     m.def("presets", &api::presets, "The ids of the scenes that are supplied.");
     m.def("catalogue_names", &api::catalogueNames);

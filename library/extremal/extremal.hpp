@@ -2,6 +2,7 @@
 /// The whole library.
 #pragma once
 
+#include "extremal/answers.hpp"
 #include "extremal/api.hpp"
 #include "extremal/catalogue.hpp"
 #include "extremal/figure.hpp"

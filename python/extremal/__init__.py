@@ -12,7 +12,11 @@ A scene is the path of a file, "preset:NAME", or a dict of the same contents.
 from ._extremal import (Comparison, Figure, InvalidScene, Scene, SchemeResult, Study, __version__, catalogue_names)
 from ._extremal import add_system as _add_system
 from ._extremal import catalogue as _catalogue
+from ._extremal import fit as _fit
+from ._extremal import gradient as _gradient
+from ._extremal import orbit as _orbit
 from ._extremal import run as _run
+from ._extremal import steer as _steer
 from .formula import Symbol, formula
 from .jet import Jet, derivatives
 from .number import (acos, acosh, asin, asinh, atan, atan2, atanh, ceil, cos, cosh, erf, erfc, exp, floor, log, log10,
@@ -20,9 +24,9 @@ from .number import (acos, acosh, asin, asinh, atan, atan2, atanh, ceil, cos, co
 
 __all__ = ["Catalogue", "Comparison", "Entry", "Figure", "InvalidScene", "Jet", "Scene", "SchemeResult", "Study",
            "Symbol", "__version__", "acos", "acosh", "add_system", "asin", "asinh", "atan", "atan2", "atanh", "baselines",
-           "catalogue", "catalogue_names", "ceil", "check", "compositions", "cos", "cosh", "erf", "erfc", "exp", "floor",
-           "formula", "lagrangian", "log", "log10", "models", "observables", "presets",
-           "profiles", "quadratures", "run", "scene", "schemes", "sign", "sin", "sinh", "spaces", "sqrt", "studies",
+           "catalogue", "catalogue_names", "ceil", "check", "compositions", "cos", "cosh", "erf", "erfc", "exp", "fit", "floor",
+           "formula", "gradient", "lagrangian", "log", "log10", "models", "observables", "orbit", "presets",
+           "profiles", "quadratures", "run", "scene", "schemes", "sign", "sin", "sinh", "spaces", "sqrt", "steer", "studies",
            "study", "tan", "tanh", "views"]
 
 
@@ -71,6 +75,78 @@ def study(kind, source, changes=(), *, progress=None, folder="", trust=False, **
     result = Study(kind, scene(source, changes, folder=folder, trust=trust), **options)
     result.run(progress)
     return result
+
+
+def orbit(source, changes=(), *, scheme="", period="", energy=None, hold="", follow="", points=0, folder="",
+          trust=False):
+    """The periodic orbit near the start of a scene, as a dict: period, energy, start, multipliers, stability, scene.
+
+    Options as those of `extremal orbit`. With follow="energy=0.125", or "/model/k=2", `orbits` has the family, a dict
+    per orbit. Where `found` is False, `problem` and `remedy` say why.
+
+    >>> extremal.orbit("preset:pendulum")["period"]
+    """
+    return _orbit(scene(source, changes, folder=folder, trust=trust), scheme=scheme, period=str(period), energy=energy,
+                  hold=hold, follow=follow, points=points)
+
+
+def fit(source, data, free, changes=(), *, scheme="", columns=(), bias=True, folder="", trust=False):
+    """Numbers of a scene from measurements of its motion, as a dict: parameters, directions, notes, residuals, scene.
+
+    data     the path of a CSV file, or a dict of columns: "t", columns of the state ("q.theta" or "theta"), and
+             standard deviations ("sd.theta") or weights ("weight.theta"); None or NaN was not measured
+    free     pointers to the numbers, ["/model/l", "/initial/q/0"]
+    columns  those to compare; by default all
+    bias     fit with half the step as well, for the bias of the scheme
+
+    >>> extremal.fit("preset:pendulum", {"t": t, "theta": theta}, ["/model/l"])["parameters"]
+    """
+    if isinstance(data, dict):
+        names = list(data)
+        lengths = {len(data[name]) for name in names}
+        if len(lengths) > 1:
+            raise ValueError("columns of data have different lengths: " + ", ".join(map(str, sorted(lengths))))
+        lines = [",".join(names)]
+        for row in zip(*(data[name] for name in names)):
+            lines.append(",".join("" if each is None else repr(float(each)) for each in row))
+        text = "\n".join(lines) + "\n"
+    else:
+        with open(data, encoding="utf-8") as file:
+            text = file.read()
+    return _fit(scene(source, changes, folder=folder, trust=trust), text, list(free), scheme=scheme,
+                columns=list(columns), bias=bias)
+
+
+def gradient(source, of, with_respect_to, changes=(), *, over="", scheme="", folder="", trust=False):
+    """Derivatives of a number of the run by many numbers of the scene, as a dict: value, at_end, integral, gradient.
+
+    of               a formula at the end of the run, in coordinates, momenta ("p_theta"), t and parameters, or ""
+    with_respect_to  pointers, ["/model/l", "/initial/q/0"]; of a control by a table all its rows: "/model/controls/u"
+    over             a formula that is integrated over the run and added
+
+    `gradient` is a list of dicts with name, pointer, value and derivative: that of the discrete motion, without
+    differences. Its cost does not depend on how many there are.
+
+    >>> extremal.gradient("preset:pendulum", "theta^2/2", ["/model/l"])["gradient"][0]["derivative"]
+    """
+    return _gradient(scene(source, changes, folder=folder, trust=trust), list(with_respect_to), of=of, over=over,
+                     scheme=scheme)
+
+
+def steer(source, over="", end=(), changes=(), *, of="", controls=(), bounds=(), scheme="", folder="", trust=False):
+    """The controls of a model that make a cost of the run least, as a dict: cost, multipliers, controls, states, scene.
+
+    over      a formula that is integrated over the run, "u^2/2"
+    end       formulas that are to be 0 at the end, ["theta-pi", "p_theta"]
+    of        a cost at the end
+    controls  the names of those that are free; by default all of the model
+    bounds    ["u=-1:1"]
+
+    `controls` has their values at the points of each step, `states` the state and the costates at its ends. Where
+    `found` is False, `problem` and `remedy` say why.
+    """
+    return _steer(scene(source, changes, folder=folder, trust=trust), over=over, of=of, end=list(end),
+                  controls=list(controls), bounds=list(bounds), scheme=scheme)
 
 
 def lagrangian(function, coordinates, **parameters):

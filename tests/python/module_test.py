@@ -11,6 +11,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -254,6 +255,58 @@ started.wait()
     def test_a_thread_that_begins_again_and_again(self):
         ended = self.ended("started.set(); extremal.run(scene)", loop=True)
         self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+
+
+class Answers(unittest.TestCase):
+    """Orbits and fits, whose numbers tests/engine/study measures."""
+
+    SWING = {"extremal": 1, "model": {"type": "harmonic-oscillator", "m": 1, "k": 2}, "initial": {"q": [1]},
+             "time": {"end": 4}, "schemes": [{"scheme": "galerkin-gauss-3", "step": 0.1}]}
+
+    def test_an_orbit_is_a_scene(self):
+        orbit = extremal.orbit("preset:pendulum", period=2.7)
+        self.assertTrue(orbit["found"])
+        result = extremal.run(orbit["scene"])[0]
+        self.assertLess(abs(result["q.theta"][-1] - result["q.theta"][0]), 1e-12)
+        family = extremal.orbit("preset:pendulum", period=2.7, follow="energy=3", points=4)["orbits"]
+        self.assertAlmostEqual(family[-1]["energy"], 3, places=12)
+        with self.assertRaises(extremal.InvalidScene) as caught:
+            extremal.orbit("preset:pendulum", hold="angle")
+        self.assertEqual(caught.exception.problems[0][0], "--hold")
+
+    def test_a_fit_takes_arrays_and_files(self):
+        t = 0.1 * np.arange(1, 41)
+        x = np.cos(1.5 * t)
+        x[3] = np.nan
+        fit = extremal.fit(self.SWING, {"t": t, "x": x, "sd.x": np.full(40, 0.01)}, ["/model/k"])
+        self.assertEqual(fit["measurements"], 39)
+        self.assertLess(abs(fit["parameters"][0]["value"] - 2.25), 1e-6)
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "data.csv")
+            np.savetxt(file, np.column_stack([t, x]), delimiter=",", header="t,x", comments="")
+            again = extremal.fit(self.SWING, file, ["/model/k"], bias=False)
+        self.assertLess(abs(again["parameters"][0]["value"] - 2.25), 1e-6)
+        with self.assertRaises(ValueError):
+            extremal.fit(self.SWING, {"t": t, "x": x[:-1]}, ["/model/k"])
+
+    def test_a_gradient_is_a_list(self):
+        answer = extremal.gradient(self.SWING, "x", ["/model/k", "/initial/q/0"], over="x^2")
+        self.assertEqual([each["name"] for each in answer["gradient"]], ["k", "initial.q.x"])
+        w = np.sqrt(2.0)
+        by_start = np.cos(4 * w) + 4 + np.sin(8 * w) / (2 * w)
+        self.assertLess(abs(answer["gradient"][1]["derivative"] - by_start), 1e-6)
+        with self.assertRaises(extremal.InvalidScene) as caught:
+            extremal.gradient(self.SWING, "y", ["/model/k"])
+        self.assertEqual(caught.exception.problems[0][0], "--of")
+
+    def test_a_control_is_found(self):
+        scene = {"extremal": 1, "model": {"type": "lagrangian", "coordinates": ["x"], "lagrangian": "x_t^2/2+u*x",
+                                          "controls": {"u": "0"}}, "initial": {"q": [0], "p": [0]},
+                 "time": {"end": 1}, "schemes": [{"scheme": "galerkin-gauss-2", "step": 0.125}]}
+        answer = extremal.steer(scene, over="u^2/2", end=["x-1", "p_x"])
+        self.assertLess(abs(answer["cost"] - 6), 1e-12)
+        self.assertEqual(len(answer["controls"]), 16)
+        self.assertEqual(len(extremal.run(answer["scene"])), 1)
 
 
 if __name__ == "__main__":
