@@ -8,6 +8,7 @@
 /// P3  Kepler, e = 0.6, position after 100 periods
 /// P5  wave function in a cosine well, N = 256 and 512, at t = 1
 /// P6  sine-Gordon breather, w = 0.9, to t = 100
+/// P6n nonlinear Schroedinger equation, 2 sech x, over one period, against the splittings of the program
 /// P7  chain of 100 balls on rods, the place of the last at t = 5, against RATTLE and IDA (chain_peers.hpp)
 ///
 /// Peers are loops by hand around Boost.odeint and splittings, and the methods in common use that the program
@@ -25,6 +26,8 @@
 #include <vector>
 
 #include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/baseline/catalog.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/sweep.hpp"
@@ -222,6 +225,43 @@ double breatherByHand(int modes, const Splitting& table, int n) {
     return std::sqrt(sum);
 }
 
+/// Fourier modes with Gauss in time, over numbers of steps: whole runs, tables and all.
+void spectralBreather(std::vector<Curve>& curves, int modes) {
+    constexpr double end = 100;
+    const System system = findModel("field")->make({"field",
+                                                    {{"wave_speed", 1.0},
+                                                     {"potential", "sine-gordon"},
+                                                     {"mass", 1.0},
+                                                     {"domain", Value::Array{-80.0, 80.0}},
+                                                     {"boundary", "periodic"},
+                                                     {"cells", static_cast<double>(modes)},
+                                                     {"trigonometric", true}},
+                                                    {}});
+    const Settings initial{"", {{"profile", "breather"}, {"omega", 0.9}}, {}};
+    State start;
+    start.x = system.start(initial, 0);
+    std::vector<double> exact(start.x.size());
+    system.exactFrom(initial, start)(end, exact);
+    for (const int degree : {4, 5, 6, 8})
+        for (const double tolerance : {1e-4, 1e-6, 1e-9, 1e-11, 0.0}) {
+            const std::string label = "Fourier " + std::to_string(modes) + ", Gauss " +
+                                      std::to_string(2 * degree) + ", tolerance " + formatNumber(tolerance);
+            curves.push_back(measure(label, false, counts(20, 300, 1.12), 0.05, [&](double steps) {
+                const Discretization d{
+                    {"fourier-field", {{"degree", static_cast<double>(degree)}, {"nodes", "same"}}, {}},
+                    {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}},
+                    {"auto", {{"tolerance", tolerance}}, {}}};
+                const auto integrator = makeIntegrator(system, d, {0, end / steps});
+                State state = start;
+                for (int k = 0; k < static_cast<int>(steps); ++k)
+                    if (advance(*integrator, state).outcome != Outcome::converged) return failed;
+                double error = 0;
+                system.error.evaluate(state.x.data(), exact.data(), &error);
+                return std::vector<double>{error};
+            }));
+        }
+}
+
 /// Every scheme on meshes and steps that are refined together; the error is the L2 norm at the nodes.
 void breather(PeerTable& table) {
     struct Code {
@@ -249,6 +289,7 @@ void breather(PeerTable& table) {
          {80, 120, 160, 240, 320}},
     };
     std::vector<Curve> curves;
+    for (const int cells : {192, 256, 320, 384}) spectralBreather(curves, cells);
     for (const Code& code : codes) {
         Curve curve{code.label, false, {{}}};
         for (const int cells : code.cells) {
@@ -291,6 +332,51 @@ void breather(PeerTable& table) {
     table.add("P6 breather", curves, 0);
 }
 
+/// 2 sech x to pi/2 on 1024 modes; peers are the splittings with FFTW and sines in vector registers.
+void solitons(PeerTable& table) {
+    constexpr double end = std::numbers::pi / 2;
+    const ModelEntry* const model = findModel("schrodinger");
+    Settings settings{"schrodinger", {}, {}};
+    for (const FieldInfo& f : model->item.parameters) settings.keys.emplace_back(f.key, f.firstValue());
+    for (auto& [key, value] : settings.keys) {
+        if (key == "domain") value = Value::Array{-24.0, 24.0};
+        if (key == "modes") value = 1024.0;
+        if (key == "interaction") value = -1.0;
+    }
+    const System system = model->make(settings);
+    const Settings initial{"", {{"psi", Value::Object{{"packet", "two-soliton"}}}}, {}};
+    State start;
+    start.x = system.start(initial, 0);
+    std::vector<double> exact(start.x.size());
+    system.exactFrom(initial, start)(end, exact);
+    const auto errorWith = [&](std::unique_ptr<Integrator> integrator, int steps) {
+        State state = start;
+        for (int k = 0; k < steps; ++k)
+            if (advance(*integrator, state).outcome != Outcome::converged) return failed;
+        double error = 0;
+        system.error.evaluate(state.x.data(), exact.data(), &error);
+        return std::vector<double>{error};
+    };
+    std::vector<Curve> curves;
+    for (const int degree : {2, 3, 4, 6, 8})
+        for (const double tolerance : {1e-7, 1e-10, 1e-12})
+            curves.push_back(
+                measure("Gauss " + std::to_string(2 * degree) + ", tolerance " + formatNumber(tolerance),
+                        false, counts(10, 1000, 1.2), 0.1, [&](double steps) {
+                            Discretization d = *namedScheme("schrodinger-gauss-" + std::to_string(degree));
+                            d.solver = {"auto", {{"tolerance", tolerance}}, {}};
+                            return errorWith(
+                                makeIntegrator(system, withEstimates(d, system, start), {0, end / steps}),
+                                static_cast<int>(steps));
+                        }));
+    for (const char* id : {"strang", "blanes-moan-s6", "srkn-6b", "srkn-11b", "srkn-14a"})
+        curves.push_back(measure(id, true, counts(10, 4000, 1.2), 0.1, [&](double steps) {
+            return errorWith(findBaseline(id)->make(system, {.step = end / steps, .settings = {id, {}, {}}}),
+                             static_cast<int>(steps));
+        }));
+    table.add("P6n two solitons", curves, 0);
+}
+
 }  // namespace
 }  // namespace extremal::bench
 
@@ -316,6 +402,7 @@ int main(int argc, char** argv) {
                                        {"P3", kepler},
                                        {"P5", waves},
                                        {"P6", breather},
+                                       {"P6n", solitons},
                                        {"P7", chains}})
         if (wanted.empty() || wanted.contains(problem)) run(table);
     if (csv && !table.writeCsv(csv)) {

@@ -109,7 +109,9 @@ private slots:
             const ResolvedScheme& s = on.schemes[0];
             const System& system = s.ownSystem ? *s.ownSystem : *on.system;
             const State& start = s.ownSystem ? s.ownInitial : on.initial;
-            for (CatalogueScheme& c : everythingOn(system, start, 0.05)) all_.emplace(c.name, std::move(c));
+            for (CatalogueScheme& c : everythingOn(system, start, 0.05))
+                // Spectral in space, where no mesh of this ladder is coarse: family.spectral_field.
+                if (c.scheme.discretization.space.type != "fourier-field") all_.emplace(c.name, std::move(c));
         }
         QVERIFY2(all_.size() >= 40, qPrintable(QString::number(all_.size())));
     }

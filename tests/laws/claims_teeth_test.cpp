@@ -108,8 +108,8 @@ private slots:
         const Table<double> table = makeTable(polynomialSpace<double>(2, PolynomialBasis::lobatto), rule);
         Found found;
         measure(found, {on, {4, false, true, {"momentum"}}, [&](double step) {
-                            return makeCondensed(on.system, [table](double) { return std::vector{table}; },
-                                                 step, {});
+                            return makeCondensed(on.system.mechanics(),
+                                                 [table](double) { return std::vector{table}; }, step, {});
                         }});
         QVERIFY(isFound(found, "order") && found.broken.size() == 1);
     }

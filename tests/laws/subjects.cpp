@@ -77,6 +77,18 @@ Subject rotatingSpring() {
     return subjectOf("rotating spring", system, {0, 0, {0.01, 0.3, 0.05, 1}}, 0, 1);
 }
 
+/// A charge without mass in a field that grows with the distance, whose one-form has both components and is
+/// not affine: on the forms of the presets projections do no harm.
+Subject masslessCharge() {
+    const System system =
+        systemNamed("phase-space",
+                    {{"variables", Value(Value::Array{"x", "y"})},
+                     {"parameters", Value(Value::Object{})},
+                     {"one_form", Value(Value::Object{{"x", "-(1+x^2+y^2)/2*y"}, {"y", "(1+x^2+y^2)/2*x"}})},
+                     {"hamiltonian", "cos(x) + sin(y)"}});
+    return subjectOf("massless charge", system, {0, 0, {0.6, 0.4}}, 0, 4);
+}
+
 /// The value of the first "type" after "model", without reading the scene.
 std::string modelOf(std::string_view json) {
     const auto model = json.find("\"model\""), key = json.find("\"type\"", model),
@@ -138,6 +150,13 @@ std::vector<const Preset*> onePerModel() {
     std::vector<const Preset*> all;
     std::set<std::string> seen;
     for (const Preset& preset : presets()) {
+        // Steps of variable length, parameters that change on the way and rest on walls have tests of their
+        // own. The four-bar drawn by hand moves as the one that is written down. The controls of the swing
+        // are a table with knots inside of steps, beyond which no order above 4 is seen.
+        const auto has = [&](const char* text) { return preset.json.find(text) != std::string_view::npos; };
+        if (has("\"monitor\"") || has("\"switch\"") || preset.id == "ball-on-a-ball" ||
+            preset.id == "four-bar-by-hand" || preset.id == "swing-up")
+            continue;
         const std::string model = modelOf(preset.json);
         const bool isTyped = model == "lagrangian" || model == "hamiltonian";
         if (seen.insert(isTyped ? std::string(preset.id) : model).second) all.push_back(&preset);
@@ -152,9 +171,9 @@ std::vector<Subject> everySubject(SubjectKind kind) {
         const Scene scene = readScene(preset->json).scene;
         const System system = makeSystem(scene);
         // The orders of fields are those of the mesh and the step together: laws.claims_fields.
-        // Membranes: tests/engine/family/asynchronous.
+        // Membranes: tests/engine/family/asynchronous; rectangles: tests/engine/family/spectral_field.
         if (kindOfSubject(system) != kind || !system.isMotion() || system.parts.find<ScalarField>() ||
-            system.parts.find<Membrane>())
+            system.parts.find<Membrane>() || system.parts.find<PlaneField>())
             continue;
         double longest = 0;
         for (const SchemeSpec& scheme : scene.schemes) longest = std::max(longest, 40 * scheme.step.value);
@@ -162,6 +181,7 @@ std::vector<Subject> everySubject(SubjectKind kind) {
             subjectOf(std::string(preset->id), system, initialState(scene, system), 0, longest));
     }
     if (kind == SubjectKind::coordinates) subjects.push_back(rotatingSpring());
+    if (kind == SubjectKind::other) subjects.push_back(masslessCharge());
     return subjects;
 }
 
