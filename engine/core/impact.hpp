@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// One impact on a wall, as a step reports it.
+/// One impact on a wall, as a step reports it, and what is equal on both sides of it.
 #pragma once
 
 namespace extremal {
+
+/// Of impacts without a loss: the energy H of the state, or the discrete energies of the two parts of the
+/// step.
+enum class ImpactLaw { energy, variational };
 
 struct Impact {
     int wall = 0;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/catalog.hpp"
+#include "engine/core/impact.hpp"
 #include "engine/core/settings.hpp"
 
 namespace extremal {
@@ -16,6 +17,7 @@ struct Discretization {
     Settings space;
     Settings quadrature;
     Settings solver;
+    ImpactLaw impact = ImpactLaw::energy;  ///< of systems with walls
     bool operator==(const Discretization&) const = default;
 };
 

@@ -174,7 +174,7 @@ TimeGrid timeGridOf(const Settings& space) {
 
 Properties describe(const Discretization& discretization) {
     static KnownBySettings<Properties> known("properties");
-    const auto& [space, quadrature, solver] = discretization;
+    const auto& [space, quadrature, solver, impact] = discretization;
     if (isTensorRule(quadrature) && !knownFamily(space).parts.find<TensorRules>()) {
         Properties p;
         refuseRule(quadrature, p);

@@ -132,7 +132,7 @@ LinearStabilityFacts factsOf(OscillatorStep step) {
 }
 
 OscillatorStep tableStep(const Discretization& discretization) {
-    const auto& [space, quadrature, solver] = discretization;
+    const auto& [space, quadrature, solver, impact] = discretization;
     // A tableau has a row and a column for each node, the action for each unknown of the step.
     constexpr int mostStages = 100;
     const bool isTall = hasTable(discretization) && tableOf(space, quadrature).nodes() > mostStages;

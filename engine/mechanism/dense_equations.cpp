@@ -30,6 +30,7 @@ public:
         forces_ = impulse_ = Vector::Zero(d);
         byState_ = Rows::Zero(d, 2 * d);
         byPlace_.assign(static_cast<std::size_t>(m + 1), Rows::Zero(n_, d));
+        ofRolling_ = Rows::Zero(n_, d);
         value_ = byTime_ = Vector::Zero(n_);
         curvature_ = Rows::Zero(d, d);
         motion_ = Vector::Zero(2 * d);
@@ -75,8 +76,9 @@ public:
         for (int j = 0; j < m; ++j)
             for (int k = 0; k < n_; ++k) {
                 double* const column = lu_.column(m * d + j * n_ + k);
+                const Eigen::MatrixXd& at = k < holonomic_ ? curve_.atPlaces : curve_.atRolling;
                 for (int a = 0; a < m; ++a) {
-                    const double test = (a == m - 1 ? 1 : 0) + (a == m - 1 ? -1 : 1) * curve_.atPlaces(j, a);
+                    const double test = (a == m - 1 ? 1 : 0) + (a == m - 1 ? -1 : 1) * at(j, a);
                     for (int i = 0; i < d; ++i) column[a * d + i] = test * byPlaceAt(j)(k, i);
                 }
                 for (int r = 0; r < m * n_; ++r) column[m * d + r] = 0;
@@ -111,29 +113,42 @@ private:
         const int d = curve_.d, m = curve_.unknowns();
         for (int j = 0; j <= m; ++j) {
             const double t = start + curve_.place(j) * h;
-            curve_.placeAt(z, j, motion_);
-            Rows& byPlace = byPlaceAt(j);
-            mechanism_.conditions(t, motion_.data(), value_, byPlace, byTime_);
+            curve_.placeAt(z, curve_.atPlaces, j, motion_);
+            mechanism_.conditions(t, motion_.data(), value_, byPlaceAt(j), byTime_);
             if (j > 0) residual_.segment(m * d + (j - 1) * n_, n_) = value_;
             if (j == m) break;
-            const auto impulse = impulses.segment(j * n_, n_);
-            forces_.noalias() = byPlace.transpose() * impulse;
-            gradient_.head(d) += forces_;
-            if (j == 0) continue;  // there the functions are 0
-            curvature_.setZero();
-            if (constraint_)
-                constraint_->addCurvature(constraint_->model.get(), t, motion_.data(),
-                                          impulses.data() + j * n_, curvature_.data());
-            if (rolling_)
-                rolling_->addCurvature(rolling_->model.get(), t, motion_.data(),
-                                       impulses.data() + j * n_ + holonomic_, curvature_.data());
-            for (int a = -1; a < m; ++a) {
-                const double test = a < 0 ? 1 : curve_.atPlaces(j, a);
-                if (a >= 0) gradient_.segment((a + 1) * d, d) += test * forces_;
-                for (int b = 0; b < m; ++b)
-                    hessian_.block((a + 1) * d, (b + 1) * d, d, d) +=
-                        test * curve_.atPlaces(j, b) * curvature_;
+            if (constraint_) addImpulses(*constraint_, {0, holonomic_, j, t}, curve_.atPlaces, impulses);
+            if (!rolling_) continue;
+            double there = t;
+            if (curve_.isRollingAtGauss) {
+                there = start + curve_.rolling.c[static_cast<std::size_t>(j)] * h;
+                curve_.placeAt(z, curve_.atRolling, j, motion_);
+                mechanism_.conditions(there, motion_.data(), value_, ofRolling_, byTime_);
+                byPlaceAt(j).bottomRows(n_ - holonomic_) = ofRolling_.bottomRows(n_ - holonomic_);
             }
+            addImpulses(*rolling_, {holonomic_, n_ - holonomic_, j, there}, curve_.atRolling, impulses);
+        }
+    }
+
+    /// Rows of the conditions with multipliers at one place, where motion_ is.
+    struct Multipliers {
+        int first, count, node;
+        double t;
+    };
+    template <class Part>
+    void addImpulses(const Part& part, Multipliers of, const Eigen::MatrixXd& at, const Vector& impulses) {
+        const int d = curve_.d, m = curve_.unknowns(), first = of.node * n_ + of.first;
+        forces_.noalias() =
+            byPlaceAt(of.node).middleRows(of.first, of.count).transpose() * impulses.segment(first, of.count);
+        gradient_.head(d) += forces_;
+        if (at.row(of.node).isZero(0)) return;
+        curvature_.setZero();
+        part.addCurvature(part.model.get(), of.t, motion_.data(), impulses.data() + first, curvature_.data());
+        for (int a = -1; a < m; ++a) {
+            const double test = a < 0 ? 1 : at(of.node, a);
+            if (a >= 0) gradient_.segment((a + 1) * d, d) += test * forces_;
+            for (int b = 0; b < m; ++b)
+                hessian_.block((a + 1) * d, (b + 1) * d, d, d) += test * at(of.node, b) * curvature_;
         }
     }
 
@@ -170,7 +185,8 @@ private:
     Rows curvature_;
     Vector forces_, motion_, value_, byTime_;  ///< motion_: (q, v) of one node
     Rows byState_;
-    std::vector<Rows> byPlace_;  ///< [g_q; a] at e_j
+    std::vector<Rows> byPlace_;  ///< [g_q; a] at e_j and r_j
+    Rows ofRolling_;             ///< [g_q; a] at r_j
     Vector rollingValue_, rollingByTime_;
     std::vector<Rows> rollingByState_;  ///< at the Gauss nodes
 };

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
+#include "engine/mechanism/contact_time.hpp"
+#include "engine/mechanism/impact_match.hpp"
 #include "engine/mechanism/impact_rhythm.hpp"
 #include "engine/mechanism/impact_variation.hpp"
 #include "engine/mechanism/mechanism.hpp"
@@ -25,14 +27,15 @@ constexpr double unitRoundOff = std::numeric_limits<double>::epsilon();
 
 class ImpactStep final : public Integrator {
 public:
-    ImpactStep(const Parts& parts, MakeOfParts make, int places)
+    ImpactStep(const Parts& parts, MakeOfParts make, int places, ImpactLaw law)
         : mechanism_(parts),
           gaps_(*parts.find<Wall>(), mechanism_.mechanics()),
           variation_(parts),
           said_(parts, mechanism_.dimension()),
           inner_(make(parts)),
           rest_(parts, make),
-          places_(places) {
+          places_(places),
+          law_(law) {
         h_ = inner_->stepSize();
         const auto n = static_cast<std::size_t>(gaps_.count());
         const auto d = static_cast<std::size_t>(mechanism_.dimension());
@@ -98,35 +101,22 @@ public:
         scheme().denseOutput(tau, x);
     }
 
-    std::size_t tangentSize() const override { return inner_->tangentSize(); }
-    std::string tangentProblem() const override { return inner_->tangentProblem(); }
+    std::size_t tangentSize() const override {
+        return law_ == ImpactLaw::variational ? 0 : inner_->tangentSize();
+    }
+    std::string tangentProblem() const override {
+        return law_ == ImpactLaw::variational
+                   ? "the tangent map through impacts with equal discrete energies is not known: with "
+                     "\"impact\": \"energy\" it is"
+                   : inner_->tangentProblem();
+    }
     /// Unknown where a step begins with an impact, or several happen at one time, and where bodies rest.
     bool applyTangent(std::span<double> W) override {
         if (rest_.isOne() || hasSettled_) return false;
         if (pieces_.empty()) return impacts_.empty() && inner_->applyTangent(W);
-        const Eigen::Index rows = 2 * dimension(), columns = static_cast<Eigen::Index>(W.size()) / rows;
-        Eigen::Map<Eigen::MatrixXd> given(W.data(), rows, columns);
-        Eigen::MatrixXd moved = given;
-        Eigen::RowVectorXd later = Eigen::RowVectorXd::Zero(columns);
-        std::size_t next = 0;
-        for (std::size_t k = 0; k < pieces_.size(); ++k) {
-            auto* const step = dynamic_cast<VariedStep*>(&*pieces_[k].step);
-            if (!step) return false;
-            if (next < contacts_.size() && contacts_[next].pieces <= k) return false;
-            if (next < contacts_.size() && contacts_[next].pieces == k + 1) {
-                const Contact& contact = contacts_[next++];
-                if (!variation_.throughContact(*step, contact.wall, contact.before, moved, later))
-                    return false;
-                continue;
-            }
-            const bool isLast = k + 1 == pieces_.size();
-            const Eigen::RowVectorXd length = isLast ? -later : Eigen::RowVectorXd::Zero(columns).eval();
-            if (!step->vary(moved, later, length)) return false;
-            if (isLast) later.setZero();
-        }
-        if (next < contacts_.size() || !variation_.toNode(end_, moved, later)) return false;
-        given = moved;
-        return true;
+        std::vector<VariedStep*> steps;
+        for (Piece& piece : pieces_) steps.push_back(dynamic_cast<VariedStep*>(&*piece.step));
+        return variation_.throughImpacts(steps, contacts_, end_, W);
     }
 
     std::span<const Quantity> quantities() const override { return inner_->quantities(); }
@@ -152,12 +142,6 @@ private:
     struct Piece {
         double from, to;
         OwnCopy<Integrator> step;
-    };
-    /// An impact after so many pieces.
-    struct Contact {
-        std::size_t pieces;
-        int wall;
-        State before;
     };
     int dimension() const { return mechanism_.dimension(); }
     double energyAt(const State& s) const {
@@ -301,40 +285,15 @@ private:
     /// steps stays open; nothing where a step has failed, as the report says.
     std::optional<double> contact(const State& start, const WallCrossing& crossing, double h,
                                   StepReport& report) {
-        double low = crossing.from, high = crossing.to, alpha = (low + high) / 2;
-        bool hasClosed = false, hasOpened = false;
-        for (int iteration = 0; iteration < 100; ++iteration) {
+        return contactTime(crossing, h, [&](double alpha) -> std::optional<GapAtEnd> {
             if (report.outcome = tryStep(start, alpha, h, report); report.outcome != Outcome::converged)
                 return {};
             gaps_.find(trial_.t, trial_.x.data());
-            const double value = gaps_[crossing.wall];
-            const auto r = gaps_.speed(crossing.wall, trial_);
-            if (!r) {
-                report.outcome = Outcome::singular;
-                return {};
-            }
-            if (std::abs(value) <= 2 * unitRoundOff * gaps_.terms(crossing.wall, trial_.x.data()))
-                return alpha;
-            hasClosed = hasClosed || value < 0;
-            hasOpened = hasOpened || value > 0;
-            (value > 0 ? low : high) = alpha;
-            double next = alpha - value / (r->value * h);
-            if (!(next > low && next < high)) next = (low + high) / 2;
-            const double tiny = 2 * unitRoundOff * std::max(1e-3, std::abs(alpha));
-            if (!(std::abs(next - alpha) > tiny)) {
-                // Newton's method may come from one side alone.
-                const bool isInside = value > 0 ? alpha < high - 2 * tiny : alpha > low + 2 * tiny;
-                if (isInside || (hasClosed && hasOpened)) return alpha;
-                if (!hasClosed) break;
-                if (low == 0) return alpha;
-                // Open there on the dense output alone.
-                high = low;
-                low = low > 1e-6 ? low / 2 : 0;
-                next = (low + high) / 2;
-            }
-            alpha = next;
-        }
-        return hasClosed ? std::optional(alpha) : std::numeric_limits<double>::quiet_NaN();
+            if (const auto r = gaps_.speed(crossing.wall, trial_))
+                return GapAtEnd{gaps_[crossing.wall], r->value, gaps_.terms(crossing.wall, trial_.x.data())};
+            report.outcome = Outcome::singular;
+            return {};
+        });
     }
 
     /// One impulse after the other while a wall at the state is approached. False where there is none that
@@ -359,6 +318,45 @@ private:
         return false;
     }
 
+    /// The discrete energy of what follows `s` up to `until`, or up to the next contact before it; nothing
+    /// where there is no such step, as the report says.
+    std::optional<double> energyAhead(const State& s, double until, StepReport& report) {
+        const double rest = until - s.t;
+        if (report.outcome = tryStep(s, 1, rest, report); report.outcome != Outcome::converged) return {};
+        if (const auto crossing = firstCrossing(s, rest); crossing && crossing->from < crossing->to) {
+            const auto alpha = contact(s, *crossing, rest, report);
+            if (!alpha) return {};
+            if (!std::isfinite(*alpha)) {  // only the dense output touches the wall
+                report.outcome = tryStep(s, 1, rest, report);
+                if (report.outcome != Outcome::converged) return {};
+            }
+        }
+        return discreteEnergy();
+    }
+    double discreteEnergy() { return dynamic_cast<VariedStep&>(scheme()).discreteEnergy(); }
+
+    /// Gives `s`, just after the last impact, the speed for which the discrete energies of the parts before
+    /// and after the contact are equal.
+    Outcome matchEnergies(State& s, double until, StepReport& report) {
+        Impact& impact = impacts_.back();
+        const State& before = contacts_.back().before;
+        const auto strike = [&](double speed) {
+            s = before;
+            gaps_.find(s.t, s.x.data());
+            const auto impulse =
+                mechanism_.strike(s.t, s.x.data(), s.x.data() + dimension(), gaps_.normal(impact.wall),
+                                  speed - gaps_.byTime(impact.wall));
+            if (!impulse) return false;
+            impact.impulse = *impulse;
+            impact.speedAfter = speed;
+            return true;
+        };
+        const auto energy = [&] { return energyAhead(s, until, report); };
+        const Outcome outcome = matchEnergiesAtContact(impact, energyBefore_, strike, energy, report.outcome);
+        impact.energyLoss = energyAt(before) - energyAt(s);
+        return outcome;
+    }
+
     /// Adds an impact to what is said of the step; the gaps are known at `s`.
     void sayImpact(const Impact& impact, const State& s) {
         sums_[SaidOfForces::work] -= impact.energyLoss;
@@ -373,6 +371,7 @@ private:
             scheme().measure(end, values_.data());
             for (std::size_t i = 0; i < values_.size(); ++i) sums_[i] += values_[i];
         }
+        if (law_ == ImpactLaw::variational) energyBefore_ = discreteEnergy();
         pieces_.push_back({from, to, OwnCopy<Integrator>(scheme().clone())});
     }
 
@@ -407,6 +406,9 @@ private:
                 s.t = until;
                 break;
             }
+            if (law_ == ImpactLaw::variational && impacts_.size() > known && !pieces_.empty())
+                if (const Outcome outcome = matchEnergies(s, until, report); outcome != Outcome::converged)
+                    return fail(outcome, s.t);
             if (const Outcome outcome = tryStep(s, 1, rest, report); outcome != Outcome::converged)
                 return fail(outcome, s.t);
             std::optional<WallCrossing> crossing = firstCrossing(s, rest);
@@ -465,7 +467,8 @@ private:
     OwnCopy<Integrator> inner_;  ///< of a motion that touches no wall
     WallRest rest_;
     int places_;
-    double h_ = 0;
+    ImpactLaw law_;
+    double h_ = 0, energyBefore_ = 0;                             ///< of the part before the contact at hand
     double liftedAt_ = std::numeric_limits<double>::quiet_NaN();  ///< a body has just left a wall
     bool hasSettled_ = false;                                     ///< in the last step
     bool saysForces_ = false;  ///< its quantities are those of SaidOfForces
@@ -478,14 +481,14 @@ private:
     std::vector<ImpactRhythm> rhythm_;
     std::vector<Impact> impacts_;  ///< of the last step
     std::vector<Piece> pieces_;    ///< of the last step, if it had impacts
-    std::vector<Contact> contacts_;
+    std::vector<ImpactVariation::Contact> contacts_;
     State before_, trial_, end_;
 };
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeImpactStep(const Parts& parts, MakeOfParts make, int places) {
-    auto step = std::make_unique<ImpactStep>(parts, std::move(make), places);
+std::unique_ptr<Integrator> makeImpactStep(const Parts& parts, MakeOfParts make, int places, ImpactLaw law) {
+    auto step = std::make_unique<ImpactStep>(parts, std::move(make), places, law);
     if (step->stepSize() < 0 && !parts.find<Wall>()->isElastic())
         throw InvalidScene(
             "/time/end",

@@ -19,8 +19,14 @@
 /// each other there, the run ends before that step with the outcome `accumulation`, StepReport::step being t*
 /// - t.
 ///
-/// Known: Fetecau, Marsden, Ortiz, West 2003 (impacts of variational integrators, with equal discrete
-/// energies of both parts of a step; here H does not change at the contact, which walks less in long runs).
+/// The variational law (Fetecau, Marsden, Ortiz, West 2003; restitution 1): of the action S(alpha h) +
+/// S((1 - alpha) h) the time of contact is a variable as the place is, so that
+///     E_d of the part before = E_d of the part after,    E_d = -dS/dh,
+/// in place of H- = H+. Such a step is symplectic. Its energy is not better: H jumps at the contact by the
+/// error of the scheme, and as parts of a step are no steps, the jumps add up to a random walk. The speed
+/// after the contact is the unknown, H- = H+ the first guess; where the part after ends at a contact itself,
+/// that one's length follows. A contact at the start of a step, the first of several at one time, and one at
+/// the end of a step have only one part, and H- = H+.
 #pragma once
 
 #include <memory>
@@ -33,7 +39,9 @@ namespace extremal {
 
 /// `make`: a scheme of the same system that leaves its walls alone, or of one with constraints besides;
 /// x = (q, p). `places`: at so many of each step gaps are looked at. Throws InvalidScene where a run goes
-/// back in time through walls that are not elastic.
-std::unique_ptr<Integrator> makeImpactStep(const Parts& parts, MakeOfParts make, int places);
+/// back in time through walls that are not elastic. `law` variational: the steps of `make` are VariedSteps of
+/// a Lagrangian, constraints and elastic walls that do not depend on time.
+std::unique_ptr<Integrator> makeImpactStep(const Parts& parts, MakeOfParts make, int places,
+                                           ImpactLaw law = ImpactLaw::energy);
 
 }  // namespace extremal

@@ -65,6 +65,33 @@ bool ImpactVariation::throughContact(VariedStep& step, int wall, const State& be
     return W.allFinite();
 }
 
+bool ImpactVariation::throughImpacts(const std::vector<VariedStep*>& steps,
+                                     const std::vector<Contact>& contacts, const State& end,
+                                     std::span<double> W) {
+    const Eigen::Index rows = 2 * mechanism_.dimension(),
+                       columns = static_cast<Eigen::Index>(W.size()) / rows;
+    Eigen::Map<Matrix> given(W.data(), rows, columns);
+    Matrix moved = given;
+    Row later = Row::Zero(columns);
+    auto next = contacts.begin();
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        if (!steps[k]) return false;
+        if (next != contacts.end() && next->pieces <= k) return false;
+        if (next != contacts.end() && next->pieces == k + 1) {
+            const Contact& contact = *next++;
+            if (!throughContact(*steps[k], contact.wall, contact.before, moved, later)) return false;
+            continue;
+        }
+        const bool isLast = k + 1 == steps.size();
+        const Row length = isLast ? -later : Row::Zero(columns).eval();
+        if (!steps[k]->vary(moved, later, length)) return false;
+        if (isLast) later.setZero();
+    }
+    if (next != contacts.end() || !toNode(end, moved, later)) return false;
+    given = moved;
+    return true;
+}
+
 bool ImpactVariation::toNode(const State& at, Matrix& W, const Row& later) {
     if (later.isZero(0)) return true;
     const int d = mechanism_.dimension();

@@ -11,6 +11,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "engine/core/state.hpp"
@@ -25,16 +27,27 @@ public:
     using Matrix = Eigen::MatrixXd;
     using Row = Eigen::RowVectorXd;
 
+    /// An impact after so many parts of a step.
+    struct Contact {
+        std::size_t pieces;
+        int wall;
+        State before;
+    };
+
     explicit ImpactVariation(const Parts& parts);
 
+    /// Moves 2 d rows of W, of the state before a step in parts, to `end`, after them. False where that is
+    /// not known: where the step begins with an impact, or several happen at one time.
+    bool throughImpacts(const std::vector<VariedStep*>& steps, const std::vector<Contact>& contacts,
+                        const State& end, std::span<double> W);
+
+private:
     /// Moves W, of a state before `step`, to the contact with `wall` at its end, through the impulse; `later`
     /// by how much that moves. `before`: the state at the contact, before the impulse. False where it is not
     /// known.
     bool throughContact(VariedStep& step, int wall, const State& before, Matrix& W, Row& later);
     /// Moves W from a time that is `later` back to that of the state.
     bool toNode(const State& at, Matrix& W, const Row& later);
-
-private:
     /// p after the impulse.
     bool strike(int wall, double t, const Eigen::VectorXd& x, Eigen::VectorXd& p);
 

@@ -158,7 +158,7 @@ private:
         const int d = parts_.d, m = curve_.unknowns(), n = parts_.n;
         const auto& entries = g.entries->byPlace;
         const double t = start + curve_.place(j) * h;
-        curve_.placeAt(z, j, motion_);
+        curve_.placeAt(z, curve_.atPlaces, j, motion_);
         g.entries->first(g.model.get(), t, motion_.data(), value_.data(), byPlace_.data(), byTime_.data());
         double* const to = lu_.values();
         if (j > 0) {

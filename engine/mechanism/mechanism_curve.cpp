@@ -9,9 +9,8 @@
 
 namespace extremal {
 
-MechanismCurve::MechanismCurve(const Table<double>& ofStep, const std::optional<Rule<double>>& forces,
-                               int dimension)
-    : table(ofStep), d(dimension) {
+MechanismCurve::MechanismCurve(const Table<double>& ofStep, const MechanismRules& rules, int dimension)
+    : table(ofStep), d(dimension), isRollingAtGauss(rules.isRollingAtGauss) {
     const int m = unknowns();
     const Rule<double> nodes = lobatto<double>(m + 1);
     places = nodes.c;
@@ -30,8 +29,15 @@ MechanismCurve::MechanismCurve(const Table<double>& ofStep, const std::optional<
     atParts = samples(parts);
     fit = dense::inverse<double>(ends);
     atGauss = {gauss<double>(m), {}};
-    if (forces)
-        atForces.rule = *forces;
+    if (isRollingAtGauss) {
+        rolling = atGauss.rule;
+    } else {
+        rolling.c.assign(places.begin(), places.end() - 1);
+        rolling.b.assign(weights.begin(), weights.end() - 1);
+    }
+    atRolling = samples(rolling.c).value;
+    if (rules.forces)
+        atForces.rule = *rules.forces;
     else
         for (int i = 0; i < table.nodes(); ++i) {
             atForces.rule.c.push_back(table.node(i));
@@ -53,9 +59,10 @@ MechanismCurve::Samples MechanismCurve::samples(const std::vector<double>& at) c
     return s;
 }
 
-void MechanismCurve::placeAt(const Eigen::VectorXd& z, int j, Eigen::VectorXd& node) const {
+void MechanismCurve::placeAt(const Eigen::VectorXd& z, const Eigen::MatrixXd& at, int j,
+                             Eigen::VectorXd& node) const {
     node.head(d) = z.head(d);
-    for (int a = 0; a < unknowns(); ++a) node.head(d) += atPlaces(j, a) * z.segment((a + 1) * d, d);
+    for (int a = 0; a < unknowns(); ++a) node.head(d) += at(j, a) * z.segment((a + 1) * d, d);
 }
 
 void MechanismCurve::motionAt(const Nodes& nodes, const Eigen::VectorXd& z, int i, double h,

@@ -26,10 +26,10 @@ constexpr int mostVaried = 64;  ///< coordinates, of a tangent map with full mat
 
 class MechanismStep final : public Integrator, public VariedStep {
 public:
-    MechanismStep(const Parts& parts, const Table<double>& table, const std::optional<Rule<double>>& forces,
-                  double step, const SolverPolicy& policy, LinkedAlgebra algebra)
+    MechanismStep(const Parts& parts, const Table<double>& table, const MechanismRules& rules, double step,
+                  const SolverPolicy& policy, LinkedAlgebra algebra)
         : mechanism_(parts, algebra),
-          curve_(table, forces, mechanism_.dimension()),
+          curve_(table, rules, mechanism_.dimension()),
           equations_(mechanism_.linked() ? linkedEquations(*mechanism_.linked(), curve_)
                                          : denseEquations(mechanism_, curve_)),
           policy_(policy),
@@ -139,11 +139,33 @@ public:
         variation_->evaluate(step, along);
         const Matrix dq = z.topRows(d) + z.middleRows(m * d, d);
         Matrix dp = W.bottomRows(d) + variation_->impulse();
-        if (!mechanism_.varyProjection(start_ + h_, q1_.data(), endVelocity_, kappa_, dq, start + length, dp))
+        if (isProjected() &&
+            !mechanism_.varyProjection(start_ + h_, q1_.data(), endVelocity_, kappa_, dq, start + length, dp))
             return false;
         W.topRows(d) = dq;
         W.bottomRows(d) = dp;
         return W.allFinite();
+    }
+
+    double discreteEnergy() const override {
+        const Table<double>& table = curve_.table;
+        const auto& L = mechanism_.mechanics();
+        const int d = dimension();
+        double sum = 0;
+        for (int i = 0; i < table.nodes(); ++i) {
+            auto q = node_.head(d), v = node_.tail(d);
+            q = z_.head(d);
+            v.setZero();
+            for (int a = 0; a < curve_.unknowns(); ++a) {
+                q += table.value(i, a) * Y_.segment(a * d, d);
+                v += table.derivative(i, a) / h_ * Y_.segment(a * d, d);
+            }
+            const double* const x = node_.data();
+            const double t = start_ + table.node(i) * h_;
+            L.gradient(L.model.get(), t, x, x + d, gradient_.data());
+            sum += table.weight(i) * L.energy(L.model.get(), t, x, gradient_.data() + d);
+        }
+        return sum;
     }
 
     /// The work of forces and of constraints that move with time, in the last step, and what forces do
@@ -166,6 +188,8 @@ public:
 private:
     int dimension() const { return mechanism_.dimension(); }
     int constraints() const { return mechanism_.constraints(); }
+    /// Whether p at the end is moved onto the conditions.
+    bool isProjected() const { return constraints() > 0 && !curve_.isRollingAtGauss; }
 
     /// (q, L_v) at tau, with the functions there in a row of `at`.
     void onCurve(double tau, const MechanismCurve::Samples& at, int row, std::span<double> x) const {
@@ -209,9 +233,12 @@ private:
 
     /// The impulses of the multipliers at the start, of a step of this length.
     void guessImpulses(double h) {
-        const int n = constraints();
-        for (int j = 0; j < curve_.unknowns(); ++j)
-            impulses_.segment(j * n, n) = h * curve_.weight(j) * multipliers_;
+        const int n = constraints(), g = mechanism_.holonomic();
+        for (int j = 0; j < curve_.unknowns(); ++j) {
+            impulses_.segment(j * n, g) = h * curve_.weight(j) * multipliers_.head(g);
+            impulses_.segment(j * n + g, n - g) =
+                h * curve_.rolling.b[static_cast<std::size_t>(j)] * multipliers_.tail(n - g);
+        }
     }
 
     bool startFresh(double h) {
@@ -346,7 +373,7 @@ private:
         for (int k = 0; k < d; ++k) q1_(k) = addExactly(z_(k), Y_((m - 1) * d + k) + carryQ_(k), carryQ_(k));
         const Vector& impulse = equations_->impulse();
         p1_ = p0_ + impulse;
-        if (constraints() > 0) {
+        if (isProjected()) {
             endVelocity_.setZero();
             for (int a = 0; a < m; ++a) endVelocity_ += curve_.endSlope(0, a) / h_ * Y_.segment(a * d, d);
             if (!mechanism_.project(end, q1_.data(), p1_.data(), endVelocity_, kappa_, true)) return false;
@@ -380,20 +407,27 @@ private:
             said_.addImpulse(t, node.data(), F.data(), values);
         }
     }
-    /// -sum_{j<m} Lambda_j . g_t - kappa . g_t at the end: what constraints that move with time do, and
-    /// rolling conditions with a velocity of their own.
+    /// -sum_{j<m} Lambda_j . g_t at e_j and r_j - kappa . g_t at the end: what constraints that move with
+    /// time do, and rolling conditions with a velocity of their own.
     double workOfConstraints() const {
         if (!mechanism_.rolling() && !(mechanism_.constraint() && mechanism_.constraint()->isTimeDependent))
             return 0;
         Mechanism& mechanism = forMeasures();
-        const int d = dimension(), m = curve_.unknowns(), n = constraints();
-        Vector q(d);
+        const int m = curve_.unknowns(), n = constraints(), g = mechanism_.holonomic();
+        Vector q(dimension());
         double sum = 0;
-        for (int j = 0; j <= m; ++j) {
-            curve_.placeAt(z_, j, q);
-            const Vector& byTime = mechanism.byTime(start_ + curve_.place(j) * h_, q.data());
-            sum -= byTime.dot(j < m ? Vector(impulses_.segment(j * n, n)) : kappa_);
+        const auto byTimeAt = [&](double place, const Eigen::MatrixXd& at, int j) -> const Vector& {
+            curve_.placeAt(z_, at, j, q);
+            return mechanism.byTime(start_ + place * h_, q.data());
+        };
+        for (int j = 0; j < m; ++j) {
+            sum -= byTimeAt(curve_.place(j), curve_.atPlaces, j).head(g).dot(impulses_.segment(j * n, g));
+            if (mechanism_.rolling())
+                sum -= byTimeAt(curve_.rolling.c[static_cast<std::size_t>(j)], curve_.atRolling, j)
+                           .tail(n - g)
+                           .dot(impulses_.segment(j * n + g, n - g));
         }
+        if (isProjected()) sum -= byTimeAt(1, curve_.atPlaces, m).dot(kappa_);
         return sum;
     }
 
@@ -419,9 +453,9 @@ private:
 }  // namespace
 
 std::unique_ptr<Integrator> makeMechanismStep(const Parts& parts, const Table<double>& table,
-                                              const std::optional<Rule<double>>& forces, double step,
+                                              const MechanismRules& rules, double step,
                                               const SolverPolicy& policy, LinkedAlgebra algebra) {
-    return std::make_unique<MechanismStep>(parts, table, forces, step, policy, algebra);
+    return std::make_unique<MechanismStep>(parts, table, rules, step, policy, algebra);
 }
 
 }  // namespace extremal

@@ -14,8 +14,12 @@
 /// already: m multipliers for m constraints, shifted by one node.
 ///
 /// Rolling conditions r = a v - b add a^T M_j to Gamma_j, M_j = h w_j mu_j, and hold on the velocity of the
-/// curve at the m Gauss nodes; p at the end is projected on a v_1 = b as well. With mu at the Gauss nodes p
-/// would have an error of lower order, with r at the Lobatto nodes q and p the order m (Jay 2009).
+/// curve at the m Gauss nodes; p at the end is projected on a v_1 = b as well (Jay 2009). With r at the
+/// Lobatto nodes q and p would have the order m. With mu at the Gauss nodes too
+/// (MechanismRules::isRollingAtGauss) the energy of a quadratic L is kept to round-off: A and the h r at the
+/// nodes are those of one rule. p is then of order m for even and m + 1 for odd m, as a v_1 = b holds to that
+/// order only; it is not projected, since q keeps the order 2 m with the p that is carried on, and a
+/// projected one drifts.
 ///
 /// Constraints at the nodes of L would leave g = 0 between steps, and p with an error that does not shrink:
 /// g vanishes at the e_j, so that the action is right to the order of the rule of interpolation on them, and
@@ -34,17 +38,17 @@
 #include "engine/action/table.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/mechanism/mechanism.hpp"
+#include "engine/mechanism/mechanism_curve.hpp"
 #include "engine/model/parts.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
 
-/// `table` for a step; it must not change with the step. `forces`: their rule, where it is not that of the
-/// table; `algebra`: full matrices, or blocks of what is coupled. Throws InvalidScene where the space has
-/// functions that the Lobatto nodes do not tell apart.
+/// `table` for a step; it must not change with the step. `algebra`: full matrices, or blocks of what is
+/// coupled. Throws InvalidScene where the space has functions that the Lobatto nodes do not tell apart.
 std::unique_ptr<Integrator> makeMechanismStep(const Parts& parts, const Table<double>& table,
-                                              const std::optional<Rule<double>>& forces, double step,
+                                              const MechanismRules& rules, double step,
                                               const SolverPolicy& policy,
                                               LinkedAlgebra algebra = LinkedAlgebra::automatic);
 

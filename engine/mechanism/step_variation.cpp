@@ -121,24 +121,38 @@ void StepVariation::addConditions(const Step& step, const Directions& along, int
         rows.noalias() += byTime_.head(g) * later_;
     }
     if (node == m) return;
-    const double* const impulses = step.impulses.data() + node * n;
-    curvature_.setZero();
     if (const auto& part = mechanism_.constraint())
-        part->addCurvature(part->model.get(), t, q, impulses, curvature_.data());
+        addImpulses(step, along, *part, {0, g, node, curve_.place(node), curve_.atPlaces});
     if (const auto& part = mechanism_.rolling())
-        part->addCurvature(part->model.get(), t, q, impulses + g, curvature_.data());
+        addImpulses(step, along, *part,
+                    {g, n - g, node, curve_.rolling.c[static_cast<std::size_t>(node)], curve_.atRolling});
+}
+
+template <class Part>
+void StepVariation::addImpulses(const Step& step, const Directions& along, const Part& part,
+                                const Multipliers& of) {
+    const int d = curve_.d, first = of.node * mechanism_.constraints() + of.first;
+    const double t = step.t + of.place * step.h;
+    moveTo(
+        step, along, of.place, [&](int a) { return of.at(of.node, a); }, [](int) { return 0.0; });
+    const double* const q = motion_.data();
+    const auto impulses = step.impulses.segment(first, of.count);
+    mechanism_.conditions(t, q, value_, byPlace_, byTime_);
+    curvature_.setZero();
+    part.addCurvature(part.model.get(), t, q, impulses.data(), curvature_.data());
     change_.noalias() = curvature_ * moved_.topRows(d);
-    change_.noalias() += byPlace_.transpose() * along.impulses.middleRows(node * n, n);
+    change_.noalias() +=
+        byPlace_.middleRows(of.first, of.count).transpose() * along.impulses.middleRows(first, of.count);
     if (!later_.isZero(0)) {
         const double apart = apartInTime(t);
         mechanism_.conditions(t + apart, q, value_, byPlace_, byTime_);
         mechanism_.conditions(t - apart, q, value_, ahead2_, byTime_);
         const Vector rate =
-            (byPlace_ - ahead2_).transpose() * Eigen::Map<const Vector>(impulses, n) / (2 * apart);
+            (byPlace_ - ahead2_).middleRows(of.first, of.count).transpose() * impulses / (2 * apart);
         change_.noalias() += rate * later_;
     }
     impulse_ += change_;
-    for (int a = 0; a < m; ++a) residual_.middleRows(a * d, d) += curve_.atPlaces(node, a) * change_;
+    for (int a = 0; a < curve_.unknowns(); ++a) residual_.middleRows(a * d, d) += of.at(of.node, a) * change_;
 }
 
 void StepVariation::addRolling(const Step& step, const Directions& along, int node) {

@@ -50,6 +50,14 @@ private:
     void addLagrangian(const Step& step, const Directions& along, int node);
     void addForces(const Step& step, const Directions& along, int node);
     void addConditions(const Step& step, const Directions& along, int node);
+    /// Rows of the conditions whose multipliers of one node act at one place.
+    struct Multipliers {
+        int first, count, node;
+        double place;
+        const Matrix& at;  ///< functions there, in row `node`
+    };
+    template <class Part>
+    void addImpulses(const Step& step, const Directions& along, const Part& part, const Multipliers& of);
     void addRolling(const Step& step, const Directions& along, int node);
     /// (q, v) into motion_, (dq, dv) into moved_, dt into later_, of a node with these functions.
     template <class Value, class Slope>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A step whose tangent map is known with its start and its length as further variables: what is needed where
-/// a step ends at a contact, whose time depends on the state.
+/// What a step that ends at a contact has to say besides: its tangent map with its start and its length as
+/// further variables, as the time of a contact depends on the state, and its discrete energy.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +15,10 @@ public:
     /// column c the step begins `start`(c) later and is `length`(c) longer. False where that is not known.
     virtual bool vary(Eigen::MatrixXd& W, const Eigen::RowVectorXd& start,
                       const Eigen::RowVectorXd& length) = 0;
+
+    /// E_d = -dS/dh = sum_i b_i (L_v . v - L) over the rule of L, on the curve of the last step, where
+    /// neither L nor the constraints depend on time.
+    virtual double discreteEnergy() const = 0;
 };
 
 }  // namespace extremal

@@ -118,10 +118,12 @@ std::unique_ptr<Integrator> ResolvedScheme::make(const System& system, double st
 std::optional<Discretization> discretizationOf(const SchemeSpec& scheme) {
     if (scheme.kind == SchemeSpec::Kind::discretization)
         return Discretization{scheme.space, completeQuadrature(scheme.space, scheme.quadrature),
-                              scheme.solver};
+                              scheme.solver, scheme.impact};
     if (scheme.kind != SchemeSpec::Kind::named) return {};
     auto found = namedScheme(scheme.named);
-    if (found && !scheme.solver.type.empty()) found->solver = scheme.solver;
+    if (!found) return {};
+    if (!scheme.solver.type.empty()) found->solver = scheme.solver;
+    found->impact = scheme.impact;
     return found;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/core/algebra/number.hpp"
+#include "engine/core/impact.hpp"
 #include "engine/core/settings.hpp"
 #include "engine/core/value.hpp"
 #include "engine/phase/invariants.hpp"
@@ -26,13 +27,14 @@ struct SchemeSpec {
     bool isEnabled = true;
     std::optional<int> style;  ///< number of its colour and dash, from 0; empty: its place in the scene
     Number step;               ///< 0 for adaptive baselines
-    std::optional<double> tolerance;  ///< adaptive baselines
-    Settings space, quadrature;       ///< discretization
-    Settings baseline;                ///< baseline: type = its name, keys = its options
-    std::string named;                ///< named: id from the scheme catalogue
-    Settings composition;             ///< type = "yoshida", ...; empty: the scheme as it is
-    std::vector<KeptQuantity> keep;   ///< what its steps keep; empty: the symplectic form
-    Settings monitor;                 ///< what its steps follow: type = "auto", ...; empty: equal steps
+    std::optional<double> tolerance;       ///< adaptive baselines
+    Settings space, quadrature;            ///< discretization
+    Settings baseline;                     ///< baseline: type = its name, keys = its options
+    std::string named;                     ///< named: id from the scheme catalogue
+    Settings composition;                  ///< type = "yoshida", ...; empty: the scheme as it is
+    std::vector<KeptQuantity> keep;        ///< what its steps keep; empty: the symplectic form
+    ImpactLaw impact = ImpactLaw::energy;  ///< what is equal on both sides of an impact without a loss
+    Settings monitor;                      ///< what its steps follow: type = "auto", ...; empty: equal steps
     Settings solver;  ///< type = method ("auto", "newton", "fixed-point"); keys tolerance, max_iterations
     bool allowsUnstable = false;
 

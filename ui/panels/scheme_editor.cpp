@@ -13,11 +13,13 @@
 #include "engine/family/parts/test_space.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/composition.hpp"
+#include "engine/model/parts/wall.hpp"
 #include "engine/phase/monitored.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/write/codec.hpp"
+#include "engine/scene/write/format.hpp"
 #include "ui/base/combo_box.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/problem_text.hpp"
@@ -262,6 +264,7 @@ void SchemeEditor::rebuild() {
              {}});
     addComposition(fields);
     addKeep(fields);
+    addImpact(fields);
     addMonitor(fields);
     form_->setFields(std::move(fields));
     showChoices();
@@ -299,6 +302,19 @@ void SchemeEditor::addKeep(std::vector<FormField>& fields) const {
         fields.push_back({optionalJsonField("keep", "keeps", about), at, {}, {}});
     else
         fields.push_back({choiceField("keep", "keeps", {"symplectic", "energy"}, about), at, {}, {}});
+}
+
+/// What is equal on both sides of an impact, where there can be some.
+void SchemeEditor::addImpact(std::vector<FormField>& fields) const {
+    const auto& resolved = workspace_.resolved();
+    if (!discretizationOf(spec()) || !resolved || !resolved->system->parts.find<Wall>()) return;
+    fields.push_back(
+        {choiceField("impact", "at impacts", format::impactLaws,
+                     "What is equal on both sides of an impact without a loss: the energy, or the "
+                     "discrete energies of the parts of the step, which is symplectic."),
+         place() + "/impact",
+         {},
+         {}});
 }
 
 /// Equal steps can be made to follow the motion, where a Hamiltonian says how.

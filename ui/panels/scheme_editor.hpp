@@ -42,6 +42,7 @@ private:
     QComboBox* addChoice(const QString& title, const QString& name);
     void addComposition(std::vector<FormField>& fields) const;
     void addKeep(std::vector<FormField>& fields) const;
+    void addImpact(std::vector<FormField>& fields) const;
     void addMonitor(std::vector<FormField>& fields) const;
     std::string signature() const;
     const SchemeSpec& spec() const;

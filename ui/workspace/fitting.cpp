@@ -57,7 +57,7 @@ const ChoiceGrid::Cell* nearestChoice(const ChoiceGrid& grid, const std::string&
     const ChoiceGrid::Cell* best = nullptr;
     int least = 0;
     for (const ChoiceGrid::Cell& cell : grid.cells) {
-        const auto& [space, quadrature, solver] = cell.discretization;
+        const auto& [space, quadrature, solver, impact] = cell.discretization;
         if (!describe(cell.discretization).refusal.empty()) continue;
         const int distance =
             std::abs(space.integer("degree") - degree) + (quadrature.type == rule ? 0 : 1000);

@@ -104,7 +104,7 @@ Table<double> tableOfSpace(const Settings& space, const Settings& quadrature) {
 }
 
 Properties describeMovingTime(const Discretization& discretization) {
-    const auto& [space, quadrature, solver] = discretization;
+    const auto& [space, quadrature, solver, impact] = discretization;
     const std::string degree = std::to_string(space.integer("degree"));
     Properties p;
     if (isPlainRule(quadrature))
@@ -163,7 +163,7 @@ int solvableDegree(const SchemeCase& scheme) {
 /// Steps that would be shorter than is allowed, as the monitor is the same on all of them: a start where they
 /// are long.
 void checkShortest(const SchemeCase& scheme, const SolvabilityForecast& found, Findings& findings) {
-    const auto& [space, quadrature, solver] = scheme.discretization;
+    const auto& [space, quadrature, solver, impact] = scheme.discretization;
     const int order = describe(space, quadrature).claims.order;
     const double shortest = scheme.step * std::pow(found.first / found.largest, 1.0 / (order + 1)),
                  least = movingTimeOptions(space, order, scheme.step).least;
@@ -176,7 +176,7 @@ void checkShortest(const SchemeCase& scheme, const SolvabilityForecast& found, F
 }
 
 void checkSolvability(const SchemeCase& scheme, Findings& findings) {
-    const auto& [space, quadrature, solver] = scheme.discretization;
+    const auto& [space, quadrature, solver, impact] = scheme.discretization;
     const auto found = forecast(scheme, space, quadrature, FollowUntil::end);
     if (!found) return;
     if (found->vanishes)

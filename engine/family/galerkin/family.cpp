@@ -116,7 +116,7 @@ Properties describeFitted(const Settings& space, const Settings& quadrature) {
 
 Properties describeGalerkin(const Discretization& discretization) {
     if (galerkin::isSplit(discretization)) return galerkin::describeSplit(discretization);
-    const auto& [space, quadrature, solver] = discretization;
+    const auto& [space, quadrature, solver, impact] = discretization;
     Properties p;
     const bool isTyped = space.find("functions") != nullptr;
     if (!isPlainRule(quadrature) && !(isTyped && quadrature.type == "auto")) {
@@ -147,7 +147,7 @@ void checkGalerkin(const SchemeCase& scheme, Findings& findings) {
     if (Mechanism::isOne(scheme.system.parts)) return galerkin::checkMechanism(scheme, findings);
     if (galerkin::isPhase(scheme.system)) return galerkin::checkPhase(scheme, findings);
     if (galerkin::isSplit(scheme.discretization)) return galerkin::checkSplit(scheme, findings);
-    const auto& [space, quadrature, solver] = scheme.discretization;
+    const auto& [space, quadrature, solver, impact] = scheme.discretization;
     if (!dependsOnStep(space)) return;
     const Table<double> table = tableOf(withStep(space, scheme.step), quadrature);
     const LinearStabilityFacts stability = factsOf(OscillatorStep(oscillatorAction(table)));
@@ -215,6 +215,7 @@ Family galerkin() {
     f.written = galerkin::written;
     f.takes = mechanisms().with<PhaseMechanics, OneForm, PoissonStructure, Spins>();
     f.parts.set(SchemeCondition{[](const Discretization& d, const System& system) {
+        if (const auto refused = galerkin::impactProblem(d, system)) return refused->refusal;
         const std::string problem = galerkin::phaseProblem(d, system);
         return problem.empty() ? galerkin::mechanismProblem(d, system) : problem;
     }});
@@ -239,6 +240,7 @@ Family galerkin() {
     f.parts.set(TrustedScheme{trusted});
     f.parts.set(
         DescribedOnSystem{[](const Discretization& d, const System& system) -> std::optional<Properties> {
+            if (auto refused = galerkin::impactProblem(d, system)) return refused;
             if (Mechanism::isOne(system.parts)) {
                 const std::string problem = galerkin::mechanismProblem(d, system);
                 if (problem.empty()) return galerkin::describeMechanism(d, system, describeGalerkin);

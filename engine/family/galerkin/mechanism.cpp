@@ -43,20 +43,27 @@ std::optional<Settings> ruleOfForces(const Discretization& d) {
     return own.type.empty() ? std::nullopt : std::optional(std::move(own));
 }
 
-/// What is wrong with rules that are not a choice.
-std::string fixedRuleProblem(const Discretization& d) {
+bool isRollingAtGauss(const Discretization& d) { return termPart(d.quadrature, "rolling").type == "gauss"; }
+
+/// What is wrong with rules that are hardly a choice.
+std::string fixedRuleProblem(const Discretization& d, const System& system) {
     for (const char* key : {"constraints", "rolling"}) {
         const Settings rule = termPart(d.quadrature, key);
         if (rule.type.empty()) continue;
-        const std::string what = std::string(key) == "constraints" ? "constraints" : "rolling conditions";
-        if (rule.type == "gauss")
+        const bool isRolling = std::string(key) == "rolling", isGauss = rule.type == "gauss";
+        const std::string what = isRolling ? "rolling conditions" : "constraints";
+        if (isGauss && !isRolling)
             return what +
                    " by gauss: the ends of a step leave them, and the order of p drops; lobatto keeps it";
-        if (rule.type != "lobatto") return what + " lose order but at the nodes of lobatto";
-        const int degree = d.space.integer("degree");
-        if (degree > 0 && rule.integer("nodes") > 0 && rule.integer("nodes") != degree + 1)
-            return what + " take " + std::to_string(degree + 1) + " Lobatto nodes with degree " +
-                   std::to_string(degree) + ": with more, or fewer, the order drops";
+        if (isGauss && system.parts.find<Constraint>())
+            return "rolling conditions by gauss leave p where it is at the end of a step, and the "
+                   "constraints "
+                   "would move it; lobatto takes both";
+        if (!isGauss && rule.type != "lobatto") return what + " lose order but at the nodes of lobatto";
+        const int degree = d.space.integer("degree"), needed = isGauss ? degree : degree + 1;
+        if (degree > 0 && rule.integer("nodes") > 0 && rule.integer("nodes") != needed)
+            return what + " take " + std::to_string(needed) + (isGauss ? " Gauss" : " Lobatto") +
+                   " nodes with degree " + std::to_string(degree) + ": with more, or fewer, the order drops";
     }
     return {};
 }
@@ -66,6 +73,31 @@ bool isRadau(const Settings& rule, std::string_view end) {
 }
 
 }  // namespace
+
+std::optional<Properties> impactProblem(const Discretization& d, const System& system) {
+    if (d.impact == ImpactLaw::energy) return {};
+    const Wall* const wall = system.parts.find<Wall>();
+    const Constraint* const constraint = system.parts.find<Constraint>();
+    Properties refused;
+    refused.place = "/impact";
+    refused.hint = "\"impact\": \"energy\", or leave it out";
+    if (!wall)
+        refused.refusal = "is about walls, and the model has none of them";
+    else if (!wall->isElastic())
+        refused.refusal = "cannot be variational where restitutions are below 1: energy is lost there";
+    else if (system.parts.find<Force>() || system.parts.find<Rolling>())
+        refused.refusal =
+            "cannot be variational with forces or rolling: they are not in the action, whose "
+            "derivative by the time of the contact is 0";
+    else if (system.mechanics().isTimeDependent || wall->isTimeDependent ||
+             (constraint && constraint->isTimeDependent))
+        refused.refusal =
+            "cannot be variational where the model depends on time: the discrete energies "
+            "differ then by what it does in the step";
+    else
+        return {};
+    return refused;
+}
 
 std::string mechanismProblem(const Discretization& d, const System& system) {
     if (!Mechanism::isOne(system.parts)) return {};
@@ -79,7 +111,7 @@ std::string mechanismProblem(const Discretization& d, const System& system) {
     if (hasOther || isSplit(plain))
         return "one space and one rule are needed for " + what +
                ": rules for terms and spaces for coordinates are for a Lagrangian alone";
-    if (std::string problem = fixedRuleProblem(d); !problem.empty()) return problem;
+    if (std::string problem = fixedRuleProblem(d, system); !problem.empty()) return problem;
     const bool isConstrained = system.parts.find<Constraint>() || system.parts.find<Rolling>();
     if (cellsIn(d.space) > 1 && isConstrained)
         return "splines with cells lose order under a constraint, which holds at the Lobatto nodes of the "
@@ -97,8 +129,15 @@ Properties describeMechanism(const Discretization& d, const System& system,
     // They act in the variation, not in the action: momenta and symmetry stay, the symplectic form does not.
     if (system.parts.find<Force>() || system.parts.find<Rolling>()) p.claims.isSymplectic = false;
     if (const Wall* const wall = system.parts.find<Wall>()) {
-        p.claims.isSymplectic = false;
+        p.claims.isSymplectic = p.claims.isSymplectic && d.impact == ImpactLaw::variational;
         p.claims.isSymmetric = p.claims.isSymmetric && wall->isElastic();
+    }
+    if (isRollingAtGauss(d) && system.parts.find<Rolling>()) {
+        // p is that of q, and v of the curve meets the conditions to this order only at the ends of a step.
+        const int m = p.claims.order / 2;
+        p.claims.order = m % 2 == 0 ? m : m + 1;
+        p.caution = "has its rolling conditions at Gauss nodes: energy is kept, the order of q is " +
+                    std::to_string(2 * m) + ", that of p " + std::to_string(p.claims.order);
     }
     if (const auto forces = ruleOfForces(d); forces && system.parts.find<Force>()) {
         p.claims.order = std::min(p.claims.order, makeRule<double>(*forces).degree + 1);
@@ -110,13 +149,14 @@ Properties describeMechanism(const Discretization& d, const System& system,
 std::unique_ptr<Integrator> mechanismStep(const System& system, const Discretization& d, double step) {
     const Discretization plain = ofLagrangian(d);
     const Table<double> table = tableOf(plain.space, plain.quadrature);
-    std::optional<Rule<double>> forces;
-    if (const auto rule = ruleOfForces(d)) forces = makeRule<double>(*rule);
-    const auto make = [table, forces, step, policy = solverPolicy(d.solver, system)](const Parts& parts) {
-        return makeMechanismStep(parts, table, forces, step, policy);
+    MechanismRules rules;
+    if (const auto rule = ruleOfForces(d)) rules.forces = makeRule<double>(*rule);
+    rules.isRollingAtGauss = isRollingAtGauss(d) && system.parts.find<Rolling>();
+    const auto make = [table, rules, step, policy = solverPolicy(d.solver, system)](const Parts& parts) {
+        return makeMechanismStep(parts, table, rules, step, policy);
     };
     if (!system.parts.find<Wall>()) return make(system.parts);
-    return makeImpactStep(system.parts, make, MechanismCurve::partsPerFunction * table.unknowns());
+    return makeImpactStep(system.parts, make, MechanismCurve::partsPerFunction * table.unknowns(), d.impact);
 }
 
 void checkMechanism(const SchemeCase& scheme, Findings& findings) {

@@ -104,7 +104,7 @@ WrittenAction writtenPhase(const System& system) {
 }
 
 void checkPhase(const SchemeCase& scheme, Findings& findings) {
-    const auto& [space, rule, solver] = scheme.discretization;
+    const auto& [space, rule, solver, impact] = scheme.discretization;
     if (const OneForm* const form = scheme.system.parts.find<OneForm>(); form && !form->hasPlane())
         findings.warning(
             "/space",

@@ -45,7 +45,7 @@ SpaceEntry liePolynomial() {
 
 /// Order, exactness and refusals are those of the polynomials that xi is made of.
 Properties describeLie(const Discretization& discretization) {
-    const auto& [space, quadrature, solver] = discretization;
+    const auto& [space, quadrature, solver, impact] = discretization;
     Properties p;
     if (isPlainRule(quadrature)) {
         p = describeTable([&d = discretization] { return lieTable(d.space, d.quadrature); });

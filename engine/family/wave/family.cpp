@@ -108,7 +108,7 @@ Properties describeThreeLevel(const Settings& space, const Settings& quadrature)
 }
 
 Properties describeWave(const Discretization& discretization) {
-    const auto& [space, quadrature, solver] = discretization;
+    const auto& [space, quadrature, solver, impact] = discretization;
     if (isThreeLevel(space)) return describeThreeLevel(space, quadrature);
     const int s = space.integer("degree");
     Properties p;

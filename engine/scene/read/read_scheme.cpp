@@ -11,6 +11,7 @@
 #include "engine/family/parts/test_space.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/composition.hpp"
+#include "engine/model/parts/wall.hpp"
 #include "engine/phase/kept_step.hpp"
 #include "engine/phase/monitor.hpp"
 #include "engine/quadrature/tensor.hpp"
@@ -250,6 +251,21 @@ void readKeep(Reader& reader, const Value& value, const std::string& pointer, Sc
     spec.keep = std::move(kept);
 }
 
+/// What is equal on both sides of an impact.
+void readImpact(Reader& reader, const Value& value, const std::string& pointer, SchemeSpec& spec) {
+    const auto& laws = format::impactLaws;
+    const auto law = value.isString() ? std::find(laws.begin(), laws.end(), value.asString()) : laws.end();
+    if (law == laws.end())
+        return reader.error(pointer, "must be \"energy\" or \"variational\", got " + describeValue(value),
+                            "\"energy\" is what it is without the key");
+    const auto discretization = discretizationOf(spec);
+    const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
+    if (!family || !family->takes.contains(Wall::part))
+        return reader.error(pointer, "is a choice of schemes that solve for the times of impacts",
+                            "for example \"scheme\": \"galerkin-gauss-2\"");
+    spec.impact = static_cast<ImpactLaw>(law - laws.begin());
+}
+
 /// What the steps follow: a function of the state, or the name of an automatic one.
 void readMonitor(Reader& reader, const Value& value, const std::string& pointer, SchemeSpec& spec) {
     if (!spec.keep.empty())
@@ -363,6 +379,7 @@ std::string partsLabel(const SchemeSpec& scheme) {
     return innerLabel(scheme) +
            (c.type.empty() ? "" : ", " + c.type + " " + formatNumber(c.number("order"))) +
            (scheme.keep.empty() ? "" : ", keeps " + keptNames(scheme)) +
+           (scheme.impact == ImpactLaw::variational ? ", variational impacts" : "") +
            (m.type.empty() ? "" : ", monitored");
 }
 
@@ -388,6 +405,8 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
     const BaselineEntry* baseline = findBaseline(spec.baseline.type);
     if (const Value* keep = value.find("keep"); keep && isKindKnown)
         readKeep(reader, *keep, childPointer(pointer, "keep"), spec);
+    if (const Value* impact = value.find("impact"); impact && isKindKnown)
+        readImpact(reader, *impact, childPointer(pointer, "impact"), spec);
     if (const Value* composition = value.find("composition"); composition && isKindKnown)
         readComposition(reader, *composition, childPointer(pointer, "composition"),
                         baseline && baseline->isAdaptive(), spec);

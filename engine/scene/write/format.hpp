@@ -30,8 +30,10 @@ inline const std::vector<std::string> view = {"view", "x",     "y",     "at",   
                                               "node", "range", "curve", "starts", "spread"};
 inline const std::vector<std::string> range = {"x", "y"};
 inline const std::vector<std::string> scheme = {
-    "label",  "enabled", "step",           "tolerance",   "space", "quadrature", "baseline",
-    "scheme", "solver",  "allow_unstable", "composition", "keep",  "monitor",    "style"};
+    "label",  "enabled",        "step",        "tolerance", "space",  "quadrature", "baseline", "scheme",
+    "solver", "allow_unstable", "composition", "keep",      "impact", "monitor",    "style"};
+/// Words for ImpactLaw, in its order.
+inline const std::vector<std::string> impactLaws = {"energy", "variational"};
 inline const std::vector<std::string> solver = {"method", "tolerance", "max_iterations"};
 
 }  // namespace extremal::format

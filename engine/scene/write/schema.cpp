@@ -196,6 +196,7 @@ Value schemeDefinition() {
     p.set("scheme", namedSchemes());
     p.set("composition", typedChoice(compositionCatalog()));
     p.set("keep", anyOf({enumeration({"symplectic", "energy"}), arrayOf(typed("string"))}));
+    p.set("impact", enumeration(format::impactLaws));
     p.set(
         "monitor",
         anyOf({typedChoice(monitorCatalog()),

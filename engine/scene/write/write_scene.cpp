@@ -112,6 +112,8 @@ Value schemeValue(const SchemeSpec& scheme) {
         value.set("keep", scheme.keep.front().text);
     else if (!scheme.keep.empty())
         value.set("keep", listOf(scheme.keep, [](const KeptQuantity& each) { return Value(each.text); }));
+    if (scheme.impact != ImpactLaw::energy)
+        value.set("impact", format::impactLaws[static_cast<std::size_t>(scheme.impact)]);
     if (!scheme.monitor.type.empty()) value.set("monitor", settingsValue(scheme.monitor));
     value.set("solver", settingsValue(scheme.solver, "method"));
     value.set("allow_unstable", scheme.allowsUnstable);

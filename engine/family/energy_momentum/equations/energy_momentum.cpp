@@ -12,7 +12,7 @@ namespace extremal::equations {
 namespace {
 
 Table<double> polynomialsOf(const StepCase& c) {
-    const auto& [space, quadrature, solver] = c.discretization;
+    const auto& [space, quadrature, solver, impact] = c.discretization;
     return makeTable<double>(polynomialSpace<double>(space.integer("degree"), PolynomialBasis::lobatto),
                              makeRule<double>(quadrature));
 }
