@@ -66,6 +66,8 @@ void addKind(const ResolvedScene& scene, const ResolvedScheme& scheme, Document&
     if (scheme.isTested())
         add("gives up", "the symplectic form: the defect of a step is C h^" +
                             std::to_string(scheme.discretization.space.integer("degree") * 2 + 1));
+    if (scheme.spec.impact == ImpactLaw::variational)
+        add("impacts", "with equal discrete energies on both sides");
     if (scheme.isMonitored()) {
         const std::string formula = scheme.spec.monitor.text("monitor");
         add("monitor", formula.empty() ? scheme.spec.monitor.type : formula);

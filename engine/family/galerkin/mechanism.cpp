@@ -14,7 +14,7 @@
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/integrator/condensed.hpp"
-#include "engine/mechanism/impact_step.hpp"
+#include "engine/mechanism/impact/impact_step.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/mechanism/mechanism_curve.hpp"
 #include "engine/mechanism/mechanism_step.hpp"
@@ -136,8 +136,8 @@ Properties describeMechanism(const Discretization& d, const System& system,
         // p is that of q, and v of the curve meets the conditions to this order only at the ends of a step.
         const int m = p.claims.order / 2;
         p.claims.order = m % 2 == 0 ? m : m + 1;
-        p.caution = "has its rolling conditions at Gauss nodes: energy is kept, the order of q is " +
-                    std::to_string(2 * m) + ", that of p " + std::to_string(p.claims.order);
+        p.remark = "rolling conditions at Gauss nodes: the energy is kept, the order of q is " +
+                   std::to_string(2 * m) + ", that of p " + std::to_string(p.claims.order);
     }
     if (const auto forces = ruleOfForces(d); forces && system.parts.find<Force>()) {
         p.claims.order = std::min(p.claims.order, makeRule<double>(*forces).degree + 1);

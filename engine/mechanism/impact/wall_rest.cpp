@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/mechanism/wall_rest.hpp"
+#include "engine/mechanism/impact/wall_rest.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The length of the step that ends at a contact: gap(q_1(alpha h)) = 0.
+/// The length of the step that ends at a contact, gap(q_1(alpha h)) = 0, or where a wall begins to pull.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,8 @@
 #include <limits>
 #include <optional>
 
-#include "engine/mechanism/wall_gaps.hpp"
+#include "engine/core/outcome.hpp"
+#include "engine/mechanism/impact/wall_gaps.hpp"
 
 namespace extremal {
 
@@ -49,6 +50,22 @@ std::optional<double> contactTime(const WallCrossing& crossing, double h, const 
         alpha = next;
     }
     return hasClosed ? std::optional(alpha) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Takes the step to the last part of (from, to] up to which something holds, by bisection: where a wall
+/// begins to pull. `stepTo(part)`: takes the step and gives its outcome; `holds()`: at its end.
+template <class Step, class Condition>
+Outcome goToEdge(const WallCrossing& found, const Step& stepTo, const Condition& holds) {
+    double low = found.from, high = found.to;
+    while (high > 0) {
+        const double middle = low + (high - low) / 2;
+        const bool isLast = high - low < 1e-15 || !(middle > low && middle < high);
+        const double part = isLast ? high : middle;
+        if (const Outcome outcome = stepTo(part); outcome != Outcome::converged) return outcome;
+        if (isLast) break;
+        (holds() ? low : high) = middle;
+    }
+    return Outcome::converged;
 }
 
 }  // namespace extremal

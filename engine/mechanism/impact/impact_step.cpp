@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/mechanism/impact_step.hpp"
+#include "engine/mechanism/impact/impact_step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
-#include "engine/mechanism/contact_time.hpp"
-#include "engine/mechanism/impact_match.hpp"
-#include "engine/mechanism/impact_rhythm.hpp"
-#include "engine/mechanism/impact_variation.hpp"
+#include "engine/mechanism/impact/contact_time.hpp"
+#include "engine/mechanism/impact/impact_match.hpp"
+#include "engine/mechanism/impact/impact_rhythm.hpp"
+#include "engine/mechanism/impact/impact_variation.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/mechanism/own_copy.hpp"
 #include "engine/mechanism/said_of_forces.hpp"
-#include "engine/mechanism/wall_gaps.hpp"
-#include "engine/mechanism/wall_rest.hpp"
+#include "engine/mechanism/impact/wall_gaps.hpp"
+#include "engine/mechanism/impact/wall_rest.hpp"
 #include "engine/model/parts/wall.hpp"
 
 namespace extremal {
@@ -201,17 +201,9 @@ private:
     /// Takes the step from `start` at whose end the wall begins to pull.
     Outcome goToLift(const State& start, const WallCrossing& found, double h, StepReport& report) {
         trial_ = start;
-        double low = found.from, high = found.to;
-        while (high > 0) {
-            const double middle = low + (high - low) / 2;
-            const bool isLast = high - low < 1e-15 || !(middle > low && middle < high);
-            const double part = isLast ? high : middle;
-            if (const Outcome outcome = tryStep(start, part, h, report); outcome != Outcome::converged)
-                return outcome;
-            if (isLast) break;
-            (rest_.push(trial_.t, trial_.x.data()) >= 0 ? low : high) = middle;
-        }
-        return Outcome::converged;
+        return goToEdge(
+            found, [&](double part) { return tryStep(start, part, h, report); },
+            [&] { return rest_.push(trial_.t, trial_.x.data()) >= 0; });
     }
 
     /// Whether what is left of impacts that accumulate in a time is nothing beside a step, or beside the
@@ -219,6 +211,17 @@ private:
     bool isNothing(const Impact& last, double time, const State& s) const {
         const double height = std::abs(last.speedAfter * time);
         return std::abs(time) < 1e-8 * std::abs(h_) || height < 1000 * gaps_.roundOff(last.wall, s.x.data());
+    }
+
+    /// The walls that impacts since `known` leave a body on before `until`, and those that it returns to.
+    std::vector<int> accumulatedOn(std::size_t known, double until, const State& s, bool areMany) {
+        std::vector<int> walls = std::exchange(returning_, {});
+        for (std::size_t i = known; i < impacts_.size(); ++i) {
+            const auto end = rhythm_[static_cast<std::size_t>(impacts_[i].wall)].end();
+            if (!end || !((until - *end) * ahead() >= 0)) continue;
+            if (areMany || isNothing(impacts_[i], *end - s.t, s)) walls.push_back(impacts_[i].wall);
+        }
+        return walls;
     }
 
     /// Lets bodies rest on the walls that they touch at a state without moving into or out of them;
@@ -393,13 +396,7 @@ private:
             const std::size_t known = impacts_.size();
             if (fastestApproach(s) >= 0) rest_.leave();
             if (!strikeAll(s)) return fail(Outcome::accumulation, s.t);
-            std::vector<int> accumulated = std::exchange(returning_, {});
-            for (std::size_t i = known; i < impacts_.size(); ++i) {
-                const auto end = rhythm_[static_cast<std::size_t>(impacts_[i].wall)].end();
-                if (!end || !((until - *end) * ahead() >= 0)) continue;
-                if (isNothing(impacts_[i], *end - s.t, s) || count > mostImpacts / 2)
-                    accumulated.push_back(impacts_[i].wall);
-            }
+            const std::vector<int> accumulated = accumulatedOn(known, until, s, count > mostImpacts / 2);
             if (!settle(s, accumulated) && !accumulated.empty()) return fail(Outcome::accumulation, s.t);
             const double rest = until - s.t;
             if (!(rest * ahead() > 4 * unitRoundOff * std::abs(until))) {

@@ -18,7 +18,7 @@
 #include "engine/integrator/integrator.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/mechanism/own_copy.hpp"
-#include "engine/mechanism/wall_gaps.hpp"
+#include "engine/mechanism/impact/wall_gaps.hpp"
 #include "engine/model/parts.hpp"
 
 namespace extremal {

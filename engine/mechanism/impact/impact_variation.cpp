@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/mechanism/impact_variation.hpp"
+#include "engine/mechanism/impact/impact_variation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -32,7 +32,7 @@
 #include <memory>
 
 #include "engine/integrator/integrator.hpp"
-#include "engine/mechanism/wall_rest.hpp"
+#include "engine/mechanism/impact/wall_rest.hpp"
 #include "engine/model/parts.hpp"
 
 namespace extremal {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/mechanism/wall_gaps.hpp"
+#include "engine/mechanism/impact/wall_gaps.hpp"
 
 #include <algorithm>
 #include <cmath>
