@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The form of a model whose potential is typed, driven as a user does, in the whole window.
+/// The form of a scene, driven as a user does, in the whole window.
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -127,6 +127,55 @@ private slots:
         QTRY_VERIFY(!field("height") || !field("height")->isVisible());
         QCOMPARE(valueAt(window.workspace().document(), "/model/potential/name")->asString(),
                  std::string("harmonic"));
+    }
+    /// Values of elements by the name of the element; keys that an action of an event needs come and go with
+    /// it.
+    void elementsAndEventsHaveRows() {
+        MainWindow window(Theme::light(), false);
+        window.resize(1400, 900);
+        window.show();
+        // The row that this is the label of, as long as it is shown.
+        const auto row = [&](const QString& title) -> QWidget* {
+            for (const QLabel* label : window.findChildren<QLabel*>())
+                if (label->objectName().startsWith("label.") && label->text() == title && label->isVisible())
+                    return label->buddy();
+            return nullptr;
+        };
+        const auto line = [&](const QString& title) {
+            QWidget* const edit = row(title);
+            return edit ? edit->findChild<QLineEdit*>() : nullptr;
+        };
+        const auto value = [&](const char* pointer) {
+            return valueAt(window.workspace().document(), pointer);
+        };
+        QVERIFY(window.open("preset:four-bar-by-hand"));
+        QTRY_VERIFY(line("B: mass"));
+        QCOMPARE(line("B: mass")->text(), QString("2"));
+        enter(line("B: mass"), "3.5");
+        QCOMPARE(value("/model/points/B/mass")->asNumber(), 3.5);
+        QCOMPARE(value("/model/points/A/mass")->asNumber(), 1.0);
+        enter(line("damper: damping"), "0.25");
+        QCOMPARE(value("/model/dampers/damper/damping")->asNumber(), 0.25);
+        enter(line("stop: through x"), "1.05");
+        QCOMPARE(value("/model/walls/stop/through/0")->asNumber(), 1.05);
+        // What cannot be is refused at its own row, and the scene stays.
+        enter(line("rocker: length"), "-1");
+        QVERIFY(line("rocker: length")->property("invalid").toBool());
+        QCOMPARE(value("/model/rods/rocker/length")->asNumber(), 1.8);
+
+        QVERIFY(window.open("preset:latch"));
+        QTRY_VERIFY(line("value 1"));
+        enter(line("value 1"), "5");
+        QCOMPARE(value("/events/0/value")->asNumber(), 5.0);
+        enter(line("event 2"), "x_t - 0.1");
+        QCOMPARE(value("/events/1/expression")->asString(), std::string("x_t - 0.1"));
+        auto* const action = row("action 1")->findChild<QComboBox*>();
+        QVERIFY(action);
+        action->setCurrentIndex(action->findText("stop"));
+        emit action->activated(action->currentIndex());
+        QTRY_VERIFY(!row("value 1"));
+        QVERIFY(!value("/events/0/value") && !value("/events/0/parameter"));
+        QVERIFY(row("value 2"));
     }
 };
 
