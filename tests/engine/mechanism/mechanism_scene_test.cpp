@@ -112,6 +112,61 @@ private slots:
                              }),
                  said.c_str());
     }
+    /// Impacts with equal discrete energies are for what follows from an action and loses nothing.
+    void variationalImpactsAreRefusedWhereTheyMeanNothing_data() {
+        QTest::addColumn<QString>("lagrangian");
+        QTest::addColumn<double>("restitution");  // 0: no wall
+        QTest::addColumn<QString>("force");
+        QTest::addColumn<QString>("scheme");
+        QTest::addColumn<QString>("words");
+        const char *const L = "x_t^2/2 - x", *const gauss = "galerkin-gauss-2";
+        QTest::newRow("taken") << L << 1.0 << "" << gauss << "";
+        QTest::newRow("no wall") << L << 0.0 << "" << gauss << "the model has none";
+        QTest::newRow("a loss") << L << 0.5 << "" << gauss << "restitutions are below 1";
+        QTest::newRow("a force") << L << 1.0 << "-x_t" << gauss << "not in the action";
+        QTest::newRow("time") << "x_t^2/2 - x*(1+t)" << 1.0 << "" << gauss << "depends on time";
+        QTest::newRow("another family") << L << 1.0 << ""
+                                        << "sem-2"
+                                        << "times of impacts";
+        QTest::newRow("no such law") << L << 1.0 << ""
+                                     << "impact"
+                                     << "must be \"energy\"";
+    }
+    void variationalImpactsAreRefusedWhereTheyMeanNothing() {
+        QFETCH(QString, lagrangian);
+        QFETCH(double, restitution);
+        QFETCH(QString, force);
+        QFETCH(QString, scheme);
+        QFETCH(QString, words);
+        Value model(Value::Object{{"type", "lagrangian"},
+                                  {"coordinates", Value::Array{"x"}},
+                                  {"lagrangian", lagrangian.toStdString()}});
+        if (restitution > 0)
+            model.set("walls",
+                      Value::Object{{"floor", Value::Object{{"gap", "x"}, {"restitution", restitution}}}});
+        if (!force.isEmpty()) model.set("forces", Value::Object{{"x", force.toStdString()}});
+        const bool isNoLaw = scheme == "impact";
+        const Value row = Value::Object{{"scheme", isNoLaw ? "galerkin-gauss-2" : scheme.toStdString()},
+                                        {"step", 0.1},
+                                        {"impact", isNoLaw ? "elastic" : "variational"}};
+        const ReadScene read = readScene(
+            Value(Value::Object{{"extremal", 1},
+                                {"model", model},
+                                {"initial", Value::Object{{"q", Value::Array{1}}, {"v", Value::Array{0}}}},
+                                {"time", Value::Object{{"end", 3}}},
+                                {"schemes", Value::Array{row}}}));
+        const std::string said = textOf(read.errors);
+        if (words.isEmpty()) {
+            QVERIFY2(said.empty(), said.c_str());
+            const Scene& scene = read.scene;
+            QVERIFY(scene.schemes.front().impact == ImpactLaw::variational);
+            const ReadScene again = readScene(toValue(scene));
+            QVERIFY(again.errors.empty() && again.scene.schemes.front() == scene.schemes.front());
+            return;
+        }
+        QVERIFY2(said.starts_with("/schemes/0/impact: "), said.c_str());
+        QVERIFY2(QString::fromStdString(said).contains(words), said.c_str());
+    }
     /// Rules of constraints that lose order are named where they stand, and friction that is smoothed is
     /// stiff where its velocity changes sign, however fast the start is.
     void rulesAndStiffFriction() {

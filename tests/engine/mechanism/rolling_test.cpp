@@ -105,6 +105,53 @@ private slots:
         QVERIFY(std::abs(m.p - order) < 0.35);
         QVERIFY(m.fine.largestRate < 1e-13);
     }
+    /// Multipliers at the Gauss nodes: the energy of a quadratic Lagrangian to round-off, where those at the
+    /// Lobatto nodes have an error of the scheme's order, and q of order 2 s with p of a lower one.
+    void rollingByGauss_data() {
+        QTest::addColumn<QString>("name");
+        QTest::addColumn<int>("degree");
+        QTest::addColumn<int>("orderOfMomenta");
+        QTest::addColumn<int>("steps");
+        for (const char* name : {"knife edge", "particle"}) {
+            QTest::addRow("%s, 1", name) << name << 1 << 2 << 100;
+            QTest::addRow("%s, 2", name) << name << 2 << 2 << 40;
+            QTest::addRow("%s, 3", name) << name << 3 << 4 << 20;
+            QTest::addRow("%s, 4", name) << name << 4 << 4 << 10;
+        }
+    }
+    void rollingByGauss() {
+        QFETCH(QString, name);
+        QFETCH(int, degree);
+        QFETCH(int, orderOfMomenta);
+        QFETCH(int, steps);
+        const Mechanical of = named(name);
+        const std::string scheme = "galerkin-gauss-" + std::to_string(degree);
+        Discretization gauss = *namedScheme(scheme);
+        Value whole(Value::Object{{"type", gauss.quadrature.type}});
+        for (const auto& [key, value] : gauss.quadrature.keys) whole.set(key, value);
+        gauss.quadrature =
+            Settings{"terms", {{"otherwise", whole}, {"rolling", Value::Object{{"type", "gauss"}}}}, {}};
+        QCOMPARE(describe(gauss, of.system).claims.order, std::min(2 * degree, orderOfMomenta));
+        const State reference = byRungeKutta(of, 3);
+        const Ending a = run(of, gauss, 3, steps), b = run(of, gauss, 3, 2 * steps);
+        QVERIFY(a.outcome == Outcome::converged && b.outcome == Outcome::converged);
+        const Distance coarse = distance(a.state, reference), fine = distance(b.state, reference);
+        const double q = std::log2(coarse.q / fine.q), p = std::log2(coarse.p / fine.p);
+        const EnergyFunction energy = energyOf(of.system);
+        const auto change = [&](const State& s) {
+            return std::abs(energy(s.t, s.x.data()) - energy(0, of.start.x.data()));
+        };
+        const Ending lobatto = run(of, scheme, 3, 2 * steps);
+        qInfo("orders of q %.2f, of p %.2f; energy %.0e (Lobatto %.0e); rate %.0e", q, p, change(b.state),
+              change(lobatto.state), b.largestRate);
+        QVERIFY(std::abs(q - 2 * degree) < 0.35);
+        QVERIFY(std::abs(p - orderOfMomenta) < 0.35);
+        QVERIFY(b.largestRate > 1e3 * lobatto.largestRate);
+        if (name == "knife edge") {
+            QVERIFY(change(b.state) < 1e-13);
+            QVERIFY(change(lobatto.state) > 20 * change(b.state));
+        }
+    }
     /// phi = w t, and the speed along the blade has the rate 2 cos(phi): x = (1 - cos(2 w t)) / (2 w^2) ..
     void theKnifeEdgeInClosedForm() {
         const double w = 1.6, t = 3;
