@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "app/load.hpp"
 #include "app/study_work.hpp"
 #include "app/verbs.hpp"
-#include "engine/core/text/regular_file.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/figure/fit_figure.hpp"
+#include "engine/figure/image/svg.hpp"
 #include "engine/run/files/answer_files.hpp"
 #include "engine/scene/read/json.hpp"
 #include "engine/study/fit/fit.hpp"
@@ -16,16 +15,6 @@
 
 namespace extremal::app {
 namespace {
-
-MeasuredData measuredIn(const FitOptions& fit, const System& system) {
-    try {
-        std::istringstream in(readRegularFile(fit.data));
-        return readMeasuredData(in, fit.data, system, fit.columns);
-    } catch (const UnreadableFile& e) {
-        throw InvalidScene("--data", "\"" + fit.data + "\" " + e.what(),
-                           "a CSV with t and columns of the state");
-    }
-}
 
 std::string known(double value, int digits) {
     return std::isfinite(value) ? formatNumber(value, digits) : "not seen";
@@ -57,7 +46,7 @@ int fitVerb(const std::string& scene, const FitOptions& given, const CommonOptio
         const Replacing replacing = replacingOf(scene, read, options, {given.data});
         for (const char* file : {"scene.json", "fit.json"})
             requireReplaceable(std::filesystem::path(given.out) / file, replacing);
-        const MeasuredData data = measuredIn(given, *read.resolved->system);
+        const MeasuredData data = readMeasuredFile(given.data, *read.resolved->system, given.columns);
         InterruptWatch watch;
         FitAnswer answer;
         const bool isInterrupted =
@@ -76,11 +65,13 @@ int fitVerb(const std::string& scene, const FitOptions& given, const CommonOptio
                      document,
                      writeScene(readScene(answer.scene).scene),
                      {{"parameters.csv", csvText(numbersTable(answer))},
-                      {"residuals.csv", csvText(answer.residuals)}}},
+                      {"residuals.csv", csvText(answer.residuals)},
+                      {"residuals.svg", svgOf(residualsFigure(answer))}}},
                     given.out, replacing);
         if (options.isJson) return print(writeJson(document), done);
         if (options.isQuiet) return static_cast<int>(done);
-        return print(fitText(answer) + "\nscene.json, parameters.csv, residuals.csv and fit.json in " +
+        return print(fitText(answer) +
+                         "\nscene.json, parameters.csv, residuals.csv, residuals.svg and fit.json in " +
                          given.out + "\n",
                      done);
     });

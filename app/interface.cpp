@@ -233,6 +233,12 @@ void addProgram(CLI::App& app, Arguments& arguments) {
     verb.add_option("--language", program.language, "cpp or python; by the ending of --out")
         ->type_name("NAME")
         ->check(CLI::IsMember({"cpp", "python"}).description(""));
+    verb.add_option(
+            "--with", program.with,
+            "the numbers that the program differentiates its end by: /model/k,/initial/q/0; parameters "
+            "and initial values of the scene by default")
+        ->delimiter(',')
+        ->type_name("POINTER,...");
     addCommon(verb, arguments.common);
 }
 
@@ -330,7 +336,8 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() 
           "\"galerkin-gauss-4\", \"step\": 0.1}' --scheme G4 --out passport.html"}},
         {"program",
          {"extremal program preset:pendulum --out pendulum.cpp",
-          "extremal program preset:kepler --out kepler.py"}},
+          "extremal program preset:kepler --out kepler.py",
+          "extremal program preset:pendulum --with /model/l,/initial/q/0 --out pendulum.py"}},
         {"orbit",
          {"extremal orbit preset:pendulum --out orbit",
           "extremal orbit preset:orbits --follow energy=0.125 --out family",

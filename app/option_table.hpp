@@ -40,7 +40,7 @@ inline const std::vector<VerbOptions>& optionTable() {
                             "--times", "--caption", "--draw-caption"}})},
         {"page", joined({scene, words, limits, files, {"--frames"}})},
         {"passport", joined({scene, words, limits, files, {"--scheme", "--format", "--measure"}})},
-        {"program", joined({scene, words, limits, files, {"--scheme", "--language"}})},
+        {"program", joined({scene, words, limits, files, {"--scheme", "--language", "--with"}})},
         {"orbit", joined({scene,
                           words,
                           files,

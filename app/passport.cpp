@@ -87,7 +87,8 @@ int programVerb(const std::string& scene, const ProgramRequest& request, const C
         const ProgramLanguage language = languageOf(request);
         const std::size_t place = schemeNamed(*read.resolved, request.scheme);
         label = &read.resolved->schemes[place].spec.label;
-        writeFile(request.out, programOf(*read.resolved, place, language), replacingOf(scene, read, options));
+        writeFile(request.out, programOf(*read.resolved, place, language, request.with),
+                  replacingOf(scene, read, options));
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems())
             printProblem(p.pointer.empty() ? sceneName(scene) + ": " + *label : p.pointer, p.message, p.hint);

@@ -85,6 +85,7 @@ struct ProgramRequest {
     std::string scheme;    ///< its label; empty: the first enabled one
     std::string language;  ///< "cpp" or "python"; empty: by the ending of the file
     std::string out;
+    std::vector<std::string> with;  ///< pointers to the numbers of its derivative; none: those of the scene
 };
 
 struct FormulasRequest {

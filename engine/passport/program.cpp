@@ -12,6 +12,7 @@
 #include "engine/core/text/text.hpp"
 #include "engine/family/parts/tables.hpp"
 #include "engine/model/typed/source_code.hpp"
+#include "engine/passport/program_derivative.hpp"
 #include "engine/passport/program_text.hpp"
 #include "engine/passport/scene_formula.hpp"
 #include "engine/passport/scheme_tableau.hpp"
@@ -165,9 +166,12 @@ void writeHead(const std::string& label, const std::string& title, const std::st
     if (isPython) {
         w.comment("python3 FILE.py          prints the run of the scene as CSV");
         w.comment("python3 FILE.py RUN.csv  compares with the CSV of a run, to 1e-13");
+        w.comment("python3 FILE.py --derivative  prints the derivative of the state at the end by numbers");
     } else {
         w.comment("g++ -O2 -std=c++17 FILE.cpp && ./a.out         prints the run of the scene as CSV");
         w.comment("./a.out RUN.csv                                 compares with the CSV of a run, to 1e-13");
+        w.comment(
+            "./a.out --derivative              prints the derivative of the state at the end by numbers");
     }
     w.text += isPython ? program_text::pythonHead : program_text::cppHead;
 }
@@ -193,22 +197,49 @@ void writeScene(const ResolvedScene& scene, const ResolvedScheme& scheme, const 
     w.text += "\n";
 }
 
+/// The numbers that the program differentiates by: how the start and the parameters change with them.
+void writeDerivative(const ProgramDerivative& by, Writer& w, bool isPython) {
+    const auto count = std::to_string(by.names.size()), parameters = std::to_string(by.parameters.size());
+    std::string names;
+    for (const std::string& name : by.names) names += (names.empty() ? "" : ",") + name;
+    w.comment("Derivatives are by these numbers; how the start and the parameters change with them.");
+    w.text += isPython ? "numbers = " + pythonString(names) + ".split(',')\nu = " + parameters + "\n"
+                       : "const char* const numbers = " + cppString(names) + ";\nconstexpr int N = " + count +
+                             ", u = " + parameters + ";\n";
+    w.matrix("d_start", by.start);
+    if (by.byNumbers.rows() > 0)
+        w.matrix("d_parameters", by.byNumbers);
+    else
+        w.text += isPython ? "d_parameters = np.zeros((0, " + count + "))\n"
+                           : "constexpr double d_parameters[1][N] = {};  // none\n";
+    w.text += "\n";
+}
+
 /// The derivatives of the Lagrangian, the step, and what runs and compares it.
-void writeFunctions(const typed::Formula& formula, Kind kind, Writer& w, bool isPython) {
+void writeFunctions(const typed::Formula& formula, const ProgramDerivative& by, Kind kind, Writer& w,
+                    bool isPython) {
     using namespace program_text;
-    const auto lines = indented(typed::derivativeLines(formula, isPython ? Language::python : Language::cpp));
+    const Language language = isPython ? Language::python : Language::cpp;
+    const auto lines = indented(typed::derivativeLines(formula, language));
+    const auto byParameters = by.parameters.empty()
+                                  ? std::string()
+                                  : indented(typed::parameterLines(formula, by.parameters, language));
     const auto step = [&](const char* galerkin, const char* stages, const char* rungeKutta) {
         return kind == Kind::galerkin ? galerkin : kind == Kind::stages ? stages : rungeKutta;
     };
     if (isPython)
         w.text.append(pythonDerivatives)
             .append(lines)
+            .append(pythonByParameters)
+            .append(byParameters)
             .append(pythonCommon)
             .append(step(pythonGalerkin, pythonStages, pythonRungeKutta))
             .append(pythonMain);
     else
         w.text.append(cppDerivatives)
             .append(lines)
+            .append(cppByParameters)
+            .append(byParameters)
             .append(cppCommon)
             .append(step(cppGalerkin, cppStages, cppRungeKutta))
             .append(cppMain);
@@ -216,7 +247,8 @@ void writeFunctions(const typed::Formula& formula, Kind kind, Writer& w, bool is
 
 }  // namespace
 
-std::string programOf(const ResolvedScene& scene, std::size_t place, ProgramLanguage language) {
+std::string programOf(const ResolvedScene& scene, std::size_t place, ProgramLanguage language,
+                      const std::vector<std::string>& with) {
     const ResolvedScheme& scheme = scene.schemes[place];
     const bool isPython = language == ProgramLanguage::python;
     const System& system = *scene.system;
@@ -227,6 +259,7 @@ std::string programOf(const ResolvedScene& scene, std::size_t place, ProgramLang
     if (!scheme.isFixed()) refuse("its steps are not all of one length");
     if (scheme.isTested()) refuse("its steps keep invariants, which no table of an action does");
     const Method method = methodOf(scene, scheme);
+    const ProgramDerivative by = programDerivative(scene, place, *formula, with);
 
     Writer w(isPython ? Language::python : Language::cpp);
     writeHead(scheme.spec.label, scene.scene.title.empty() ? system.id : scene.scene.title, formula->text, w,
@@ -234,11 +267,12 @@ std::string programOf(const ResolvedScene& scene, std::size_t place, ProgramLang
     const bool isComposedByParts = scheme.isComposed() && method.kind == Kind::galerkin;
     writeScene(scene, scheme, *formula, isComposedByParts ? scheme.parts : std::vector<double>{1}, w,
                isPython);
+    writeDerivative(by, w, isPython);
     if (method.kind == Kind::galerkin)
         writeGalerkin(*method.table, w, isPython);
     else
         writeTableau(*method.tableau, w, isPython, method.kind == Kind::stages);
-    writeFunctions(*formula, method.kind, w, isPython);
+    writeFunctions(*formula, by, method.kind, w, isPython);
     // In Python behind the two lines that come first: the interpreter and the encoding.
     return isPython ? markedAsOwn(w.text, "# ", {}, 2) : markedAsOwn(w.text, "// ");
 }

@@ -21,6 +21,12 @@ const char* const cppDerivatives = R"(
 void fill([[maybe_unused]] double t, [[maybe_unused]] const double* q, [[maybe_unused]] const double* v, double* g, double (*H)[2 * d]) {
 )";
 
+const char* const cppByParameters = R"(}
+
+/// The derivatives of this gradient by those parameters that the program differentiates by, by rows.
+void fillByParameters([[maybe_unused]] double t, [[maybe_unused]] const double* q, [[maybe_unused]] const double* v, [[maybe_unused]] double* B) {
+)";
+
 const char* const cppCommon = R"(}
 
 /// X of A X = B, column by column, by elimination with partial pivoting; n rows, k columns, both by rows.
@@ -61,6 +67,21 @@ Derivatives derivatives(double t, const double* q, const double* v) {
     return L;
 }
 
+/// Of the gradient of L, with the columns of derivatives of q and v: rows of N.
+std::vector<double> changes(double t, const double* q, const double* v, const double* dq, const double* dv) {
+    const Derivatives L = derivatives(t, q, v);
+    std::vector<double> B(2 * d * u + 1), G(2 * d * N, 0.0);
+    fillByParameters(t, q, v, B.data());
+    for (int i = 0; i < 2 * d; ++i)
+        for (int l = 0; l < N; ++l) {
+            double sum = 0;
+            for (int j = 0; j < d; ++j) sum += L.H[i][j] * dq[j * N + l] + L.H[i][d + j] * dv[j * N + l];
+            for (int k = 0; k < u; ++k) sum += B[i * u + k] * d_parameters[k][l];
+            G[i * N + l] = sum;
+        }
+    return G;
+}
+
 /// v with L_v(t, q, v) = p, by Newton from 0: one iteration where L is quadratic in v.
 std::vector<double> velocity(double t, const std::vector<double>& q, const std::vector<double>& p) {
     std::vector<double> v(d, 0.0);
@@ -77,11 +98,13 @@ std::vector<double> velocity(double t, const std::vector<double>& q, const std::
     }
     return v;
 }
+
+// Each step also moves X, the columns of derivatives of (q, p) by numbers of the scene, if it is given: 2 d rows of N.
 )";
 
 const char* const cppGalerkin = R"(
 /// sum_i b_i (h psi_a L_q + psi_a' L_v) = 0 inside, = -p_0 for the last test function; Newton from a straight line.
-void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) {
+void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0, std::vector<double>* X = nullptr) {
     const std::vector<double> v0 = velocity(t, q0, p0);
     std::vector<double> Y(m * d), Q(d), V(d);
     for (int k = 0; k < d; ++k) Y[(m - 1) * d + k] = h * v0[k];
@@ -96,6 +119,43 @@ void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) 
         }
         return derivatives(t + c[i] * h, Q.data(), V.data());
     };
+    const auto jacobian = [&](const Derivatives& L, int i, std::vector<double>& J) {
+        for (int a = 0; a < m; ++a)
+            for (int j = 0; j < d; ++j)
+                for (int e = 0; e < m; ++e)
+                    for (int k = 0; k < d; ++k)
+                        J[(a * d + j) * m * d + e * d + k] +=
+                            b[i] * (psi[i][a] * (h * L.H[j][k] * phi[i][e] + L.H[j][d + k] * dphi[i][e]) +
+                                    dpsi[i][a] * (L.H[d + j][k] * phi[i][e] + L.H[d + j][d + k] * dphi[i][e] / h));
+    };
+    // With the equations R(Y; q_0, p_0, k) = 0 of the step: R_Y dY = -R_q dq_0 - R_p dp_0 - R_k dk.
+    const auto moveColumns = [&] {
+        const std::vector<double> before = *X, rest(d * N, 0.0);
+        std::vector<double> dY(m * d * N, 0.0), J(m * d * m * d, 0.0), dQ(d * N), dV(d * N);
+        for (int k = 0; k < d * N; ++k) dY[(m - 1) * d * N + k] = -before[d * N + k];
+        for (int i = 0; i < n; ++i) {
+            jacobian(at(i), i, J);
+            const std::vector<double> G = changes(t + c[i] * h, Q.data(), V.data(), before.data(), rest.data());
+            for (int a = 0; a < m; ++a)
+                for (int k = 0; k < d * N; ++k)
+                    dY[a * d * N + k] -= b[i] * (h * psi[i][a] * G[k] + dpsi[i][a] * G[d * N + k]);
+        }
+        if (!solve(J, dY, m * d, N)) throw std::runtime_error("the step is singular");
+        for (int k = 0; k < d * N; ++k) (*X)[k] += dY[(m - 1) * d * N + k];
+        for (int i = 0; i < n; ++i) {
+            at(i);
+            for (int k = 0; k < d * N; ++k) {
+                dQ[k] = before[k];
+                dV[k] = 0;
+                for (int a = 0; a < m; ++a) {
+                    dQ[k] += phi[i][a] * dY[a * d * N + k];
+                    dV[k] += dphi[i][a] * dY[a * d * N + k] / h;
+                }
+            }
+            const std::vector<double> G = changes(t + c[i] * h, Q.data(), V.data(), dQ.data(), dV.data());
+            for (int k = 0; k < d * N; ++k) (*X)[d * N + k] += h * b[i] * G[k];
+        }
+    };
     double last = HUGE_VAL;
     for (int iteration = 0; iteration < 60; ++iteration) {
         std::vector<double> R(m * d), J(m * d * m * d);
@@ -103,14 +163,8 @@ void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) 
         for (int i = 0; i < n; ++i) {
             const Derivatives L = at(i);
             for (int a = 0; a < m; ++a)
-                for (int j = 0; j < d; ++j) {
-                    R[a * d + j] -= b[i] * (h * psi[i][a] * L.g[j] + dpsi[i][a] * L.g[d + j]);
-                    for (int e = 0; e < m; ++e)
-                        for (int k = 0; k < d; ++k)
-                            J[(a * d + j) * m * d + e * d + k] +=
-                                b[i] * (psi[i][a] * (h * L.H[j][k] * phi[i][e] + L.H[j][d + k] * dphi[i][e]) +
-                                        dpsi[i][a] * (L.H[d + j][k] * phi[i][e] + L.H[d + j][d + k] * dphi[i][e] / h));
-                }
+                for (int j = 0; j < d; ++j) R[a * d + j] -= b[i] * (h * psi[i][a] * L.g[j] + dpsi[i][a] * L.g[d + j]);
+            jacobian(L, i, J);
         }
         if (!solve(J, R, m * d, 1)) throw std::runtime_error("the step is singular");
         for (int a = 0; a < m * d; ++a) Y[a] += R[a];
@@ -121,6 +175,7 @@ void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) 
                 const Derivatives L = at(i);
                 for (int k = 0; k < d; ++k) force[k] += b[i] * L.g[k];
             }
+            if (X) moveColumns();
             for (int k = 0; k < d; ++k) {
                 q0[k] += Y[(m - 1) * d + k];
                 p0[k] += h * force[k];
@@ -135,9 +190,11 @@ void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) 
 
 const char* const cppStages = R"(
 /// Stages in the order in which they are known: forces at Q_i, velocities at P_j.
-void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) {
-    std::vector<std::vector<double>> V(nV, std::vector<double>(d, 0.0)), F(nF, std::vector<double>(d, 0.0));
-    const std::vector<double> rest(d, 0.0);
+void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0, std::vector<double>* X = nullptr) {
+    using Rows = std::vector<std::vector<double>>;
+    Rows V(nV, std::vector<double>(d, 0.0)), F(nF, std::vector<double>(d, 0.0));
+    Rows dV(nV, std::vector<double>(X ? d * N : 0)), dF(nF, std::vector<double>(X ? 2 * d * N : 0));
+    const std::vector<double> rest(d, 0.0), none(X ? d * N : 0);
     for (const auto& stage : order) {
         const int i = stage[1];
         if (stage[0] == 1) {
@@ -145,13 +202,33 @@ void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) 
             for (int j = 0; j < nF; ++j)
                 for (int k = 0; k < d; ++k) P[k] += h * A_hat[i][j] * F[j][k];
             V[i] = velocity(t + c[i] * h, q0, P);
+            if (!X) continue;
+            const Derivatives L = derivatives(t + c[i] * h, q0.data(), V[i].data());
+            const std::vector<double> G = changes(t + c[i] * h, q0.data(), V[i].data(), X->data(), none.data());
+            std::vector<double> M(d * d);
+            for (int k = 0; k < d; ++k)
+                for (int j = 0; j < d; ++j) M[k * d + j] = L.H[d + k][d + j];
+            for (int k = 0; k < d * N; ++k) {
+                dV[i][k] = (*X)[d * N + k] - G[d * N + k];
+                for (int j = 0; j < nF; ++j) dV[i][k] += h * A_hat[i][j] * dF[j][k];
+            }
+            if (!solve(M, dV[i], d, N)) throw std::runtime_error("the Legendre transform is singular");
         } else {
             std::vector<double> Q = q0;
             for (int j = 0; j < nV; ++j)
                 for (int k = 0; k < d; ++k) Q[k] += h * A[i][j] * V[j][k];
             const Derivatives L = derivatives(t + c_hat[i] * h, Q.data(), rest.data());
             for (int k = 0; k < d; ++k) F[i][k] = L.g[k];
+            if (!X) continue;
+            std::vector<double> dQ(X->begin(), X->begin() + d * N);
+            for (int j = 0; j < nV; ++j)
+                for (int k = 0; k < d * N; ++k) dQ[k] += h * A[i][j] * dV[j][k];
+            dF[i] = changes(t + c_hat[i] * h, Q.data(), rest.data(), dQ.data(), none.data());
         }
+    }
+    for (int k = 0; X && k < d * N; ++k) {
+        for (int j = 0; j < nV; ++j) (*X)[k] += h * b[j] * dV[j][k];
+        for (int j = 0; j < nF; ++j) (*X)[d * N + k] += h * b_hat[j] * dF[j][k];
     }
     for (int k = 0; k < d; ++k) {
         for (int j = 0; j < nV; ++j) q0[k] += h * b[j] * V[j][k];
@@ -185,12 +262,31 @@ void field(double t, const std::vector<double>& q, const std::vector<double>& p,
     }
 }
 
+/// The derivatives of the field by the numbers through the parameters: rows of N.
+std::vector<double> fieldByParameters(double t, const std::vector<double>& q, const std::vector<double>& p) {
+    const std::vector<double> v = velocity(t, q, p), none(d * N, 0.0);
+    const Derivatives L = derivatives(t, q.data(), v.data());
+    std::vector<double> G = changes(t, q.data(), v.data(), none.data(), none.data());
+    std::vector<double> M(d * d), W(G.begin() + d * N, G.end());
+    for (int i = 0; i < d; ++i)
+        for (int j = 0; j < d; ++j) M[i * d + j] = -L.H[d + i][d + j];
+    if (!solve(M, W, d, N)) throw std::runtime_error("the Legendre transform is singular");
+    for (int i = 0; i < d; ++i)
+        for (int l = 0; l < N; ++l) {
+            for (int j = 0; j < d; ++j) G[i * N + l] += L.H[i][d + j] * W[j * N + l];
+            G[(d + i) * N + l] = G[i * N + l];
+            G[i * N + l] = W[i * N + l];
+        }
+    return G;
+}
+
 /// K_i = f(x_0 + h sum_j a_ij K_j), with A for q and A_hat for p: stage by stage, or by Newton for all.
-void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) {
+void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0, std::vector<double>* X = nullptr) {
     constexpr int w = 2 * d;
-    std::vector<double> K(nV * w, 0.0), f(w), J(w * w);
+    std::vector<double> K(nV * w, 0.0), f(w), J(w * w), Q(d), P(d);
     const auto at = [&](int i) {
-        std::vector<double> Q = q0, P = p0;
+        Q = q0;
+        P = p0;
         for (int j = 0; j < nV; ++j)
             for (int k = 0; k < d; ++k) {
                 Q[k] += h * A[i][j] * K[j * w + k];
@@ -228,6 +324,28 @@ void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) 
             last = size;
         }
     }
+    // dK_i = J_i (dx_0 + h sum_j a_ij dK_j) + f_k dk.
+    if (X) {
+        std::vector<double> M(nV * w * nV * w), dK(nV * w * N);
+        for (int i = 0; i < nV; ++i) {
+            at(i);
+            const std::vector<double> G = fieldByParameters(t + c[i] * h, Q, P);
+            for (int k = 0; k < w; ++k) {
+                for (int l = 0; l < N; ++l) {
+                    double sum = G[k * N + l];
+                    for (int e = 0; e < w; ++e) sum += J[k * w + e] * (*X)[e * N + l];
+                    dK[(i * w + k) * N + l] = sum;
+                }
+                for (int j = 0; j < nV; ++j)
+                    for (int l = 0; l < w; ++l)
+                        M[(i * w + k) * nV * w + j * w + l] =
+                            (i == j && k == l ? 1 : 0) - h * (l < d ? A[i][j] : A_hat[i][j]) * J[k * w + l];
+            }
+        }
+        if (!solve(M, dK, nV * w, N)) throw std::runtime_error("the step is singular");
+        for (int j = 0; j < nV; ++j)
+            for (int k = 0; k < w * N; ++k) (*X)[k] += h * (k < d * N ? b[j] : b_hat[j]) * dK[j * w * N + k];
+    }
     for (int j = 0; j < nV; ++j)
         for (int k = 0; k < d; ++k) {
             q0[k] += h * b[j] * K[j * w + k];
@@ -238,12 +356,20 @@ void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) 
 
 const char* const cppMain = R"(
 /// To the next node.
-void advance(long k, std::vector<double>& q, std::vector<double>& p) {
+void advance(long k, std::vector<double>& q, std::vector<double>& p, std::vector<double>* X = nullptr) {
     double at = t_start + double(k) * h_step;
     for (const double part : parts) {
-        step(at, part * h_step, q, p);
+        step(at, part * h_step, q, p, X);
         at += part * h_step;
     }
+}
+
+/// The derivatives of (q, p) after so many steps by the numbers: 2 d rows of N.
+std::vector<double> derivative(long steps) {
+    std::vector<double> q(q_start, q_start + d), p(p_start, p_start + d), X(2 * d * N);
+    for (int i = 0; i < 2 * d; ++i) std::copy(d_start[i], d_start[i] + N, X.begin() + i * N);
+    for (long k = 0; k < steps; ++k) advance(k, q, p, &X);
+    return X;
 }
 
 /// Largest difference from the rows of a CSV of the run, relative to the largest entry of the state.
@@ -276,6 +402,19 @@ bool test(const char* path) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc > 1 && std::string(argv[1]) == "--derivative") {
+        const std::vector<double> X = derivative(steps_of_the_scene);
+        std::printf("column,%s\n", numbers);
+        std::istringstream names(columns);
+        std::string name;
+        std::getline(names, name, ',');  // the time
+        for (int i = 0; i < 2 * d && std::getline(names, name, ','); ++i) {
+            std::printf("%s", name.c_str());
+            for (int l = 0; l < N; ++l) std::printf(",%.17g", X[i * N + l]);
+            std::printf("\n");
+        }
+        return 0;
+    }
     if (argc > 1) return test(argv[1]) ? 0 : 1;
     std::vector<double> q(q_start, q_start + d), p(p_start, p_start + d);
     std::printf("%s\n", columns);

@@ -81,6 +81,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
     if (verb == "orbit" && option == "--manifold") return added({option, "unstable"});
     if (verb == "fit" && option == "--data") return replaced("m.csv", "missing.csv");
     if (verb == "fit" && option == "--free") return replaced("/model/l", "/model/g");
+    if (verb == "program" && option == "--with") return added(words("--with /model/l"));
     if (verb == "gradient" && option == "--of") return replaced("theta", "p_theta");
     if (verb == "gradient" && option == "--over") return added(words("--over theta"));
     if (verb == "gradient" && option == "--with") return replaced("/model/l", "/model/g");

@@ -41,6 +41,7 @@
 #include "ui/study/study_page.hpp"
 #include "ui/text/text_view.hpp"
 #include "ui/windows/copies_window.hpp"
+#include "ui/windows/fit_window.hpp"
 #include "ui/windows/inspector_window.hpp"
 #include "ui/windows/log_window.hpp"
 #include "ui/windows/race_window.hpp"
@@ -177,6 +178,7 @@ void MainWindow::setTheme(const Theme& theme) {
     parts.emplace_back([this] { startPage_->setTheme(theme_); });
     parts.emplace_back([this] {
         if (inspector_) inspector_->setTheme(theme_);
+        if (fit_) fit_->setTheme(theme_);
         if (own_) own_->setTheme(theme_);
         if (race_) race_->setTheme(theme_);
         if (copies_) copies_->setTheme(theme_);
@@ -313,7 +315,11 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-    if (event->mimeData()->hasUrls()) open(event->mimeData()->urls().first().toLocalFile());
+    if (!event->mimeData()->hasUrls()) return;
+    const QString path = event->mimeData()->urls().first().toLocalFile();
+    if (workspace_->hasScene() && path.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive))
+        return fitWindow().open(path);
+    open(path);
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {

@@ -33,6 +33,7 @@ class CopiesWindow;
 class Discretizer;
 struct ExportParts;
 class FigureSheet;
+class FitWindow;
 class HeaderBar;
 class HelpWindow;
 class InspectorWindow;
@@ -155,6 +156,7 @@ private:
     void showHelp(const QString& page);
     void showValues();
     void openDialog();
+    FitWindow& fitWindow();
     void newFromLagrangian();
     void drawMechanism();
     void keepRecent();
@@ -213,6 +215,7 @@ private:
     InspectorWindow* inspector_ = nullptr;
     RaceWindow* race_ = nullptr;
     FigureSheet* figureSheet_ = nullptr;
+    FitWindow* fit_ = nullptr;
     CopiesWindow* copies_ = nullptr;
     OwnWindow* own_ = nullptr;
     OwnList* ownList_ = nullptr;

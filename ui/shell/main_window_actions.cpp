@@ -40,6 +40,7 @@
 #include "ui/windows/about.hpp"
 #include "ui/windows/copies_window.hpp"
 #include "ui/windows/help_window.hpp"
+#include "ui/windows/fit_window.hpp"
 #include "ui/windows/inspector_window.hpp"
 #include "ui/windows/passport_window.hpp"
 #include "ui/windows/race_window.hpp"
@@ -376,7 +377,7 @@ void MainWindow::addRunActions() {
     actions_->add("restart", menu, tr("Compute again"), {QKeySequence(Qt::Key_R)}, [this] { run_->start(); });
     actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)}, [this] {
         if (endPresentation()) return;
-        if (needs_->stop() || cellCosts_->stop() || orbits_->stop()) return;
+        if (needs_->stop() || cellCosts_->stop() || orbits_->stop() || (fit_ && fit_->stop())) return;
         if (studies_->isVisible() && studies_->stop()) return;
         if (compare_->restore()) return;
         if (!run_->isRunning()) workspace_->selectScheme(-1);
@@ -435,6 +436,10 @@ void MainWindow::addStudyActions() {
         {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_D)}, [this] { cellCosts_->toggle(); },
         tr("Shades the cells by what the wanted error costs with each, as measured"));
     actions_->add(
+        "fit", menu, tr("Fit to measurements..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_D)},
+        [this] { fitWindow().open(); },
+        tr("Parameters and initial values from a CSV file, which may be dropped on the window as well"));
+    actions_->add(
         "race", menu, tr("Race"), {QKeySequence(Qt::Key_F9)},
         [this] {
             if (!race_) race_ = new RaceWindow(*run_, *wanted_, theme_, this);
@@ -453,6 +458,11 @@ void MainWindow::addStudyActions() {
                   onPage(&StudyPage::useSelected));
     actions_->add("loadResult", menu, tr("Show the selected result in Compare"),
                   {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_U)}, onPage(&StudyPage::loadSelected));
+}
+
+FitWindow& MainWindow::fitWindow() {
+    if (!fit_) fit_ = new FitWindow(*workspace_, *notices_, theme_, this);
+    return *fit_;
 }
 
 void MainWindow::openDialog() {

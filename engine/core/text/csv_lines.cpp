@@ -35,7 +35,6 @@ void splitCells(std::string_view line, std::vector<std::string_view>& cells) {
 CsvLines::CsvLines(std::istream& in, std::string name, std::string pointer, std::string wanted)
     : in_(in), name_(std::move(name)), pointer_(std::move(pointer)) {
     if (!readLine()) fail(" cannot be read, or is empty", wanted);
-    if (text_.starts_with("\xef\xbb\xbf")) text_.erase(0, 3);
     splitCells(text_, cells_);
     // Spreadsheets of many countries write semicolons, so that numbers may have decimal commas.
     for (const auto& [separator, word] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}})
@@ -50,11 +49,16 @@ std::size_t CsvLines::placeOf(std::string_view name) const {
 }
 
 bool CsvLines::readLine() {
-    do {
+    for (;;) {
         if (!std::getline(in_, text_)) return false;
-        ++line_;
-    } while (line_ > 1 && trimmed(text_).empty());
-    return true;
+        if (++line_ == 1 && text_.starts_with("\xef\xbb\xbf")) text_.erase(0, 3);
+        if (text_.starts_with('#')) {
+            const std::string_view said = trimmed(std::string_view(text_).substr(1));
+            if (names_.empty() && !said.empty()) remark_.append(remark_.empty() ? "" : " ").append(said);
+        } else if (line_ == 1 || !trimmed(text_).empty()) {
+            return true;
+        }
+    }
 }
 
 bool CsvLines::next() {

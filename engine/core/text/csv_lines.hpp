@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A CSV file of numbers that somebody else wrote, line after line; what is wrong is said with its line.
-/// Cells may be quoted, an empty one or `nan` is not known, and empty lines are left out.
+/// Cells may be quoted, an empty one or `nan` is not known, and empty lines are left out, as lines that begin
+/// with # are.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +20,8 @@ public:
     CsvLines(std::istream& in, std::string name, std::string pointer, std::string wanted);
 
     const std::vector<std::string>& names() const { return names_; }
+    /// What the lines with # before the names say, without the #, as one text; empty: nothing.
+    const std::string& remark() const { return remark_; }
     /// The place of a column; `nowhere` where there is none.
     static constexpr auto nowhere = static_cast<std::size_t>(-1);
     std::size_t placeOf(std::string_view name) const;
@@ -36,7 +39,7 @@ private:
     bool readLine();
 
     std::istream& in_;
-    std::string name_, pointer_, text_;
+    std::string name_, pointer_, text_, remark_;
     std::vector<std::string> names_;
     std::vector<std::string_view> cells_;
     int line_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/typed/source_code.hpp"
 
+#include <algorithm>
+
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape_code.hpp"
@@ -10,14 +12,13 @@ namespace {
 
 class Lines {
 public:
-    Lines(const Formula& formula, const Code& code, Language language)
-        : formula_(formula), code_(code), isPython_(language == Language::python) {
+    /// `d`: how many coordinates are those of the state; the others are parameters.
+    Lines(const Formula& formula, int d, const Code& code, Language language)
+        : formula_(formula), d_(d), code_(code), isPython_(language == Language::python) {
         for (const Code::Item& each : code.items())
             hasBranches_ =
                 hasBranches_ || (each.kind == Code::Kind::instruction && each.code.op == Op::choose);
     }
-    bool hasBranches() const { return hasBranches_; }
-
     std::string item(const Code::Item& item) const {
         switch (item.kind) {
             case Code::Kind::input:
@@ -30,6 +31,17 @@ public:
         return {};
     }
     static std::string value(std::uint32_t at) { return "x" + std::to_string(at); }
+    /// What all values are made from.
+    std::vector<std::string> lines() const {
+        std::vector<std::string> made;
+        // A branch that is not taken may be infinite or not a number, and says nothing about it.
+        if (isPython_ && hasBranches_) made.emplace_back("np.seterr(all='ignore')");
+        const auto& items = code_.items();
+        for (std::size_t i = 0; i < items.size(); ++i)
+            made.push_back((isPython_ ? "" : "const double ") + value(static_cast<std::uint32_t>(i)) + " = " +
+                           item(items[i]) + (isPython_ ? "" : ";"));
+        return made;
+    }
 
 private:
     /// Always with a point, as 1/2 would be 0 in C++.
@@ -39,11 +51,13 @@ private:
         return text;
     }
     std::string symbol(int s) const {
-        const int d = formula_.dimension();
+        const int all = formula_.dimension();
         if (s == formula_.time()) return "t";
         if (s >= formula_.firstParameter())
             return "k_" + formula_.parameters[static_cast<std::size_t>(s - formula_.firstParameter())].first;
-        return (s < d ? "q[" : "v[") + std::to_string(s < d ? s : s - d) + "]";
+        if (s >= all) return "v[" + std::to_string(s - all) + "]";
+        return s < d_ ? "q[" + std::to_string(s) + "]"
+                      : "k_" + formula_.coordinates[static_cast<std::size_t>(s)];
     }
     /// Functions that are not one call in both languages; @ and # are the arguments. Where an argument is not
     /// a number, comparisons are false in a program, and not a number in an expression.
@@ -146,6 +160,7 @@ private:
     }
 
     const Formula& formula_;
+    int d_;
     const Code& code_;
     bool isPython_, hasBranches_ = false;
 };
@@ -158,16 +173,9 @@ std::vector<std::string> derivativeLines(const Formula& formula, Language langua
     std::vector<std::uint32_t> gradient, hessian;
     for (const int node : symbolic->gradient) gradient.push_back(code.value(node));
     for (const int node : symbolic->hessian) hessian.push_back(code.value(node));
-    const Lines text(formula, code, language);
     const bool isPython = language == Language::python;
     const std::string end = isPython ? "" : ";";
-    std::vector<std::string> lines;
-    // A branch that is not taken may be infinite or not a number, and says nothing about it.
-    if (isPython && text.hasBranches()) lines.emplace_back("np.seterr(all='ignore')");
-    const auto& items = code.items();
-    for (std::size_t i = 0; i < items.size(); ++i)
-        lines.push_back((isPython ? "" : "const double ") + Lines::value(static_cast<std::uint32_t>(i)) +
-                        " = " + text.item(items[i]) + end);
+    std::vector<std::string> lines = Lines(formula, formula.dimension(), code, language).lines();
     for (std::size_t i = 0; i < gradient.size(); ++i)
         lines.push_back("g[" + std::to_string(i) + "] = " + Lines::value(gradient[i]) + end);
     std::size_t at = 0;
@@ -175,6 +183,38 @@ std::vector<std::string> derivativeLines(const Formula& formula, Language langua
         for (std::size_t j = 0; j <= i; ++j, ++at)
             lines.push_back("H[" + std::to_string(i) + (isPython ? ", " : "][") + std::to_string(j) +
                             "] = " + Lines::value(hessian[at]) + end);
+    return lines;
+}
+
+std::vector<std::string> parameterLines(const Formula& formula, const std::vector<std::string>& parameters,
+                                        Language language) {
+    // Parameters as coordinates: these derivatives are a block of the Hessian.
+    Formula wider = formula;
+    wider.coordinates.insert(wider.coordinates.end(), parameters.begin(), parameters.end());
+    std::erase_if(wider.parameters, [&](const auto& each) {
+        return std::find(parameters.begin(), parameters.end(), each.first) != parameters.end();
+    });
+    const auto symbolic = differentiate(wider);
+    Code code(symbolic->graph);
+    const int d = formula.dimension(), u = static_cast<int>(parameters.size());
+    const auto entry = [&](int i, int j) {
+        return symbolic->hessian[static_cast<std::size_t>(i > j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i)];
+    };
+    std::vector<std::string> places;
+    std::vector<std::uint32_t> values;
+    for (int i = 0; i < 2 * d; ++i)
+        for (int k = 0; k < u; ++k) {
+            const int node = entry(i < d ? i : i + u, d + k);
+            if (symbolic->graph.isZero(node)) continue;
+            values.push_back(code.value(node));
+            places.push_back(language == Language::python
+                                 ? "B[" + std::to_string(i) + ", " + std::to_string(k) + "]"
+                                 : "B[" + std::to_string(i * u + k) + "]");
+        }
+    std::vector<std::string> lines = Lines(wider, d, code, language).lines();
+    for (std::size_t i = 0; i < places.size(); ++i)
+        lines.push_back(places[i] + " = " + Lines::value(values[i]) +
+                        (language == Language::python ? "" : ";"));
     return lines;
 }
 

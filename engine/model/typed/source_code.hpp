@@ -17,4 +17,9 @@ enum class Language { cpp, python };
 /// of the formula. Throws ExpressionError.
 std::vector<std::string> derivativeLines(const Formula& formula, Language language);
 
+/// The same for derivatives of these by parameters, which may be none: B[i * u + k] (B[i, k] in Python) is
+/// dg_i/dk of the u parameters that are named.
+std::vector<std::string> parameterLines(const Formula& formula, const std::vector<std::string>& parameters,
+                                        Language language);
+
 }  // namespace extremal::typed

@@ -364,6 +364,18 @@ std::string variedNumberProblem(const Scene& scene, const System& system, const 
     return "is not a number of the model, an initial value that the scene gives, or a term with a name";
 }
 
+std::vector<NumberOfScene> numbersOf(const Scene& scene, const System& system) {
+    std::vector<std::string> pointers = allOf(system, scene);
+    for (const char* const part : {"/initial/q/", "/initial/p/", "/initial/v/"})
+        for (std::size_t i = 0; i < system.coordinates.size(); ++i)
+            pointers.push_back(part + std::to_string(i));
+    std::vector<NumberOfScene> numbers;
+    for (const std::string& pointer : pointers)
+        if (const auto value = ScenesBy(scene, system, pointer).value())
+            numbers.push_back({pointer, nameOf(scene, system, pointer), *value});
+    return numbers;
+}
+
 void nameVariedNumbers(System& system, const Scene& scene) {
     const auto& observe = scene.observe;
     if (!system.hasCoordinates() || std::find(observe.begin(), observe.end(), "sensitivity") == observe.end())

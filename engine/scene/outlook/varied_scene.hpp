@@ -27,6 +27,14 @@ void nameVariedNumbers(System& system, const Scene& scene);
 /// Why a scene has no number there that can be varied, for people; empty: it has.
 std::string variedNumberProblem(const Scene& scene, const System& system, const std::string& pointer);
 
+/// The numbers that can be varied, with their values: the parameters of formulas, and initial values that the
+/// scene gives.
+struct NumberOfScene {
+    std::string pointer, name;
+    double value = 0;
+};
+std::vector<NumberOfScene> numbersOf(const Scene& scene, const System& system);
+
 /// A control that is a polynomial on each step of length h from t_0:
 ///     u(t) = sum_j c_j s^j,    s = (t - t_0) / h - 1/2.
 struct ControlCurve {

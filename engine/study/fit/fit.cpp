@@ -28,7 +28,8 @@ constexpr double unseenPart = 1e-10;
 /// The method of Levenberg and Marquardt, with the sizes of the columns as its metric.
 class LeastSquares {
 public:
-    explicit LeastSquares(FittedMotion& motion) : motion_(motion) {}
+    LeastSquares(FittedMotion& motion, bool isOfBias, const FitProgress& tell)
+        : motion_(motion), isOfBias_(isOfBias), tell_(tell) {}
 
     /// From the numbers in `at`, which are moved to the minimum. False: problem() says why there is none.
     bool solve(Vector& at, const std::stop_token& stop) {
@@ -37,6 +38,7 @@ public:
             return false;
         }
         sums_.push_back(values_.residual.squaredNorm());
+        tell(at);
         double damping = 1e-3;
         for (int step = 0; step < mostFitSteps && !stop.stop_requested(); ++step) {
             const Vector sizes = values_.derivative.colwise().norm().cwiseMax(1e-300).transpose();
@@ -52,6 +54,7 @@ public:
                 at = next;
                 values_ = std::move(there);
                 sums_.push_back(sum);
+                tell(at);
                 damping = std::max(damping / 10, 1e-12);
                 if (isSettled) return true;
                 continue;
@@ -74,6 +77,14 @@ public:
     const std::string& problem() const { return problem_; }
 
 private:
+    void tell(const Vector& at) const {
+        if (!tell_) return;
+        const Vector& computed = values_.computed;
+        tell_({{at.data(), at.data() + at.size()},
+               {computed.data(), computed.data() + computed.size()},
+               sums_.back(),
+               isOfBias_});
+    }
     Vector correction(const Vector& sizes, double damping) const {
         const Index n = values_.derivative.rows(), m = values_.derivative.cols();
         Matrix A = Matrix::Zero(n + m, m);
@@ -85,6 +96,8 @@ private:
     }
 
     FittedMotion& motion_;
+    bool isOfBias_;
+    const FitProgress& tell_;
     FittedMotion::Values values_;
     std::vector<double> sums_;
     std::string problem_;
@@ -188,7 +201,7 @@ Value numberOrNull(double number) { return std::isfinite(number) ? Value(number)
 }  // namespace
 
 FitAnswer fit(const ResolvedScene& scene, const MeasuredData& data, const FitRequest& request,
-              const std::stop_token& stop) {
+              const std::stop_token& stop, const FitProgress& tell) {
     requireFree(request, data.all.size());
     const std::size_t place = schemeNamed(scene, request.scheme);
     const ResolvedScheme& scheme = scene.schemes[place];
@@ -203,10 +216,12 @@ FitAnswer fit(const ResolvedScene& scene, const MeasuredData& data, const FitReq
     answer.scheme = scheme.spec.label;
     answer.measurements = data.all.size();
     answer.hasDeviations = data.hasDeviations;
+    answer.data = data.name;
+    answer.remark = data.remark;
     FittedMotion motion(scene, place, request.free, data);
     motion.setStop(stop);
     Vector at = motion.start();
-    LeastSquares squares(motion);
+    LeastSquares squares(motion, false, tell);
     const bool isFound = squares.solve(at, stop);
     answer.sums = squares.sums();
     for (Index k = 0; k < at.size(); ++k) {
@@ -225,7 +240,7 @@ FitAnswer fit(const ResolvedScene& scene, const MeasuredData& data, const FitReq
     if (request.measuresBias) {
         FittedMotion finer(scene, place, request.free, data, 0.5);
         finer.setStop(stop);
-        LeastSquares again(finer);
+        LeastSquares again(finer, true, tell);
         Vector there = at;
         if (again.solve(there, stop))
             for (Index k = 0; k < at.size(); ++k)

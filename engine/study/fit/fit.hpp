@@ -12,6 +12,7 @@
 /// they are less those of half the step, to be compared with sd.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <stop_token>
 #include <string>
@@ -48,6 +49,7 @@ struct SeenDirection {
 
 struct FitAnswer {
     std::string scheme;
+    std::string data, remark;  ///< the name of the file, and what it says about itself
     std::vector<FittedNumber> numbers;
     std::vector<std::vector<double>> correlations;
     std::vector<SeenDirection> directions;  ///< the best known first
@@ -62,9 +64,18 @@ struct FitAnswer {
     bool isFound() const { return problem.empty(); }
 };
 
+/// Where the method has come to: after the start, and after each step that lowers the sum.
+struct FitStep {
+    std::vector<double> values;    ///< of the numbers
+    std::vector<double> computed;  ///< of the measurements
+    double sum = 0;
+    bool isOfBias = false;  ///< the minimum is known, and that of half the step is sought
+};
+using FitProgress = std::function<void(const FitStep&)>;
+
 /// Throws InvalidScene ("--free", "--data", "--scheme") where the request cannot be met.
 FitAnswer fit(const ResolvedScene& scene, const MeasuredData& data, const FitRequest& request,
-              const std::stop_token& stop = {});
+              const std::stop_token& stop = {}, const FitProgress& tell = {});
 
 /// parameters.csv: a row per number, with its correlations.
 StudyTable numbersTable(const FitAnswer& answer);

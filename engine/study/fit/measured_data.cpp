@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/csv_lines.hpp"
+#include "engine/core/text/regular_file.hpp"
 #include "engine/core/text/text.hpp"
 
 namespace extremal {
@@ -76,6 +78,8 @@ MeasuredData readMeasuredData(std::istream& in, const std::string& name, const S
     const std::size_t time = lines.placeOf("t");
     if (time == CsvLines::nowhere) lines.fail(" has no column \"t\"", wantedFile);
     MeasuredData data;
+    data.name = name;
+    data.remark = lines.remark();
     const std::vector<Places> places = placesOf(lines, system, only, data);
     data.hasDeviations = std::all_of(places.begin(), places.end(), [](const Places& p) {
         return p.deviation != CsvLines::nowhere || p.weight != CsvLines::nowhere;
@@ -96,6 +100,16 @@ MeasuredData readMeasuredData(std::istream& in, const std::string& name, const S
     std::stable_sort(data.all.begin(), data.all.end(),
                      [](const Measurement& a, const Measurement& b) { return a.t < b.t; });
     return data;
+}
+
+MeasuredData readMeasuredFile(const std::string& path, const System& system,
+                              const std::vector<std::string>& only) {
+    try {
+        std::istringstream in(readRegularFile(path));
+        return readMeasuredData(in, path, system, only);
+    } catch (const UnreadableFile& e) {
+        throw InvalidScene("--data", "\"" + path + "\" " + e.what(), wantedFile);
+    }
 }
 
 }  // namespace extremal
