@@ -8,6 +8,9 @@
 #include <QTemporaryDir>
 #include <QTest>
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/model/typed/typed_mechanics.hpp"
 #include "engine/passport/passport.hpp"
 #include "engine/passport/scene_formula.hpp"
@@ -228,6 +231,106 @@ class PassportTest : public QObject {
         rows.close();
         QCOMPARE(run(folder.filePath("own"), {csv}).code, 1);
         QCOMPARE(run(QStringLiteral(EXTREMAL_PYTHON), {folder.filePath("own.py"), csv}).code, 1);
+    }
+
+    /// The derivative that a program computes by itself is that of `extremal gradient`, of all columns at
+    /// once: of a sum of them with different weights.
+    void programsHaveTheDerivativeOfTheRun_data() {
+        QTest::addColumn<QString>("preset");
+        QTest::addColumn<QString>("scheme");
+        QTest::addColumn<QString>("with");
+        QTest::addColumn<QString>("end");
+        const auto row = [](const char* name, const char* preset, const char* scheme, const char* with,
+                            const char* end) { QTest::newRow(name) << preset << scheme << with << end; };
+        row("Gauss 2", "pendulum", R"~({"scheme": "galerkin-gauss-2", "step": 0.1})~",
+            "/model/l,/model/g,/model/m,/initial/q/0", "5");
+        row("Lobatto 3, initial values alone", "kepler", R"~({"scheme": "galerkin-lobatto-3", "step": 0.1})~",
+            "/initial/q/0,/initial/q/1", "3");
+        row("Verlet", "henon-heiles", R"~({"scheme": "stormer-verlet-pair", "step": 0.05})~",
+            "/model/lambda,/initial/q/0", "3");
+        row("collocation", "spring-pendulum",
+            R"~({"baseline": {"type": "gauss-collocation", "stages": 3}, "step": 0.001})~",
+            "/model/k,/model/l,/model/g,/initial/q/1", "0.1");
+        row("RK4", "harmonic-oscillator", R"~({"baseline": "rk4", "step": 0.05})~",
+            "/model/k,/model/m,/initial/q/0", "3");
+        row("a composition", "duffing",
+            R"~({"scheme": "midpoint", "step": 0.05, "composition": {"type": "suzuki"}})~",
+            "/model/parameters/c,/model/parameters/k,/initial/q/0", "2");
+        row("driven, with explicit time", "forced-pendulum",
+            R"~({"scheme": "galerkin-gauss-2", "step": 0.05})~",
+            "/model/parameters/F,/model/parameters/g,/initial/q/0,/initial/v/0", "2");
+    }
+    void programsHaveTheDerivativeOfTheRun() {
+        QFETCH(QString, preset);
+        QFETCH(QString, scheme);
+        QFETCH(QString, with);
+        QFETCH(QString, end);
+        QTemporaryDir folder;
+        const QStringList scene{"preset:" + preset, "--set",
+                                "/schemes/-=" + scheme.chopped(1) + R"~(, "label": "own"})~", "--set",
+                                "/time/end=" + end};
+        QStringList columns;
+        QList<QList<double>> byLanguage;
+        for (const QString& file : {folder.filePath("own.cpp"), folder.filePath("own.py")}) {
+            const tests::Answer made =
+                runProgram(QStringList{"program"} + scene +
+                           QStringList{"--scheme", "own", "--with", with, "--out", file});
+            QVERIFY2(made.code == 0, qPrintable(made.err));
+            Said said;
+            if (file.endsWith(".cpp")) {
+                said =
+                    run("g++", {"-O1", "-std=c++17", "-Wall", "-Werror", "-o", folder.filePath("own"), file});
+                QVERIFY2(said.code == 0, qPrintable(said.text));
+                said = run(folder.filePath("own"), {"--derivative"});
+            } else {
+                said = run(QStringLiteral(EXTREMAL_PYTHON), {file, "--derivative"});
+            }
+            QVERIFY2(said.code == 0, qPrintable(said.text));
+            QStringList lines = said.text.trimmed().split('\n');
+            QCOMPARE(lines.takeFirst().count(','), with.count(',') + 1);
+            columns.clear();
+            // The sum of all columns with the weights 0.3, 0.55, ...
+            QList<double> sums(with.count(',') + 1, 0.0);
+            for (const QString& line : lines) {
+                const QStringList cells = line.split(',');
+                const double weight = 0.3 + 0.25 * static_cast<double>(columns.size());
+                columns << cells[0];
+                for (qsizetype i = 0; i < sums.size(); ++i) sums[i] += weight * cells[i + 1].toDouble();
+            }
+            byLanguage << sums;
+        }
+        QString of;
+        for (qsizetype i = 0; i < columns.size(); ++i) {
+            const QString name = columns[i].startsWith("q.") ? columns[i].mid(2) : "p_" + columns[i].mid(2);
+            of += (i > 0 ? "+" : "") + QString::number(0.3 + 0.25 * static_cast<double>(i)) + "*" + name;
+        }
+        const tests::Answer gradient = runProgram(
+            QStringList{"gradient"} + scene +
+            QStringList{"--scheme", "own", "--of", of, "--with", with, "--out", folder.filePath("g")});
+        QVERIFY2(gradient.code == 0, qPrintable(gradient.err));
+        QFile table(folder.filePath("g/gradient.csv"));
+        QVERIFY(table.open(QIODevice::ReadOnly));
+        const QList<QByteArray> rows = table.readAll().trimmed().split('\n');
+        for (qsizetype i = 0; i < byLanguage[0].size(); ++i) {
+            const double exact = rows[i + 1].split(',').back().toDouble();
+            for (const QList<double>& sums : byLanguage) {
+                const double off = std::abs(sums[i] - exact), size = std::max(1.0, std::abs(exact));
+                qInfo("%s: %.15g, off by %.1e", rows[i + 1].split(',')[0].constData(), exact, off);
+                QVERIFY(off <= 1e-12 * size);
+            }
+        }
+    }
+    void derivativesThatCannotBeSayWhy() {
+        QTemporaryDir folder;
+        const QString file = folder.filePath("x.py");
+        const auto said = [&](const QStringList& more) {
+            const tests::Answer made =
+                runProgram(QStringList{"program", "preset:pendulum", "--out", file} + more);
+            return made.code == 2 ? made.err : QString("code %1").arg(made.code);
+        };
+        QVERIFY(said({"--with", "/model/nonsense"}).contains("/model/nonsense is not a number"));
+        QVERIFY(said({"--with", "/time/end"}).contains("--with"));
+        QVERIFY(!QFile::exists(file));
     }
 
     void whatCannotBeTakenAlongSaysWhy() {

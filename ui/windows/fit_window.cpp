@@ -292,6 +292,7 @@ void FitWindow::showEnd() {
     }
     const FitAnswer& answer = *job_->answer();
     applyAnswer();
+    fillNumbers();
     for (const FittedNumber& each : answer.numbers) {
         const int row = rowOf(each.pointer);
         if (row < 0) continue;

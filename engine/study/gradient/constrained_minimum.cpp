@@ -21,6 +21,7 @@ public:
 
     Minimum solve(const std::stop_token& stop) {
         if (!look()) return ended("the motion with the first controls cannot be computed");
+        double slopeBefore = HUGE_VAL;
         for (made_.iterations = 0; made_.iterations < mostIterations; ++made_.iterations) {
             if (stop.stop_requested()) return ended("interrupted");
             if (!linearise())
@@ -28,7 +29,10 @@ public:
                                  ? "no controls between these bounds are found that meet the end conditions"
                                  : "the end conditions cannot be met: their derivatives by "
                                    "the controls depend on each other");
-            if (isFound()) return ended({});
+            // Newton's steps go down by themselves until round-off of the gradient holds them.
+            const bool isDone = isFound();
+            if (isDone || (isNearlyFound() && made_.slope > slopeBefore / 2)) return ended({});
+            slopeBefore = made_.slope;
             const Vector normal = toBounds_ - scaled(C_.transpose() * solveNormal(r_ + C_ * toBounds_));
             const Vector d = normal + tangential(normal);
             // Those of the quadratic programme, with which d lowers the sum that is searched along it.
@@ -106,7 +110,8 @@ private:
     }
     bool isNearlyFound() const {
         const double size = std::sqrt(g_.dot(scaled(g_))) + 1e-300;
-        return made_.slope <= 1e-7 * size && r_.norm() <= 1e-10 * (1 + rSize_);
+        return made_.slope <= 1e-7 * size && r_.norm() <= 1e-10 * (1 + rSize_) &&
+               toBounds_.cwiseAbs().maxCoeff() <= 1e-10 * (1 + u_.cwiseAbs().maxCoeff());
     }
     /// d of the Lagrange function's gradient along d, by differences of order 2.
     bool product(const Vector& d, Vector& Hd) {

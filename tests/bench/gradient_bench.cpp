@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a gradient by 1000 controls at the nodes costs, in runs: processor time of study/gradient's sweep
+/// (the recorded run and the way back) over that of a plain run of the same scheme and steps, the best of
+/// several, in one process. The plain run has the control as the table that it is in the scene; the recorded
+/// one has its coefficients on each step as coordinates of the system.
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "engine/model/system.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/outlook/varied_motion.hpp"
+#include "engine/scene/write/codec.hpp"
+#include "engine/study/gradient/run_derivative.hpp"
+#include "tests/bench/cpu_time.hpp"
+
+using namespace extremal;
+
+namespace {
+
+/// A pendulum whose torque is a table of so many rows, a step from row to row.
+ReadScene sceneOf(const std::string& scheme, int rows) {
+    std::string table;
+    for (int k = 0; k < rows; ++k)
+        table += (k ? ",[" : "[") + std::to_string(0.05 * k) + "," +
+                 std::to_string(0.3 * ((k * 7) % 11) / 11.0) + "]";
+    return readScene(R"json({"extremal":1,"model":{"type":"lagrangian","coordinates":["x"],
+        "lagrangian":"x_t^2/2+cos(x)","forces":{"x":"u-0.1*x_t"},"controls":{"u":{"table":[)json" +
+                     table +
+                     R"json(],"interpolation":"linear"}}},"initial":{"q":[0.4],"p":[0]},"time":{"end":)json" +
+                     std::to_string(0.05 * (rows - 1)) + R"json(},"schemes":[{"scheme":")json" + scheme +
+                     R"json(","step":0.05}],"reference":{"type":"none"}})json");
+}
+
+template <class Work>
+double best(const Work& work) {
+    double least = 1e300;
+    for (int i = 0; i < 9; ++i) {
+        const double from = cpuSeconds();
+        work();
+        least = std::min(least, cpuSeconds() - from);
+    }
+    return least;
+}
+
+}  // namespace
+
+int main() {
+    constexpr int rows = 1000;
+    std::printf("%-18s %10s %10s %10s %8s %8s\n", "scheme", "run [ms]", "recorded", "backward", "ratio",
+                "of own");
+    double worst = 0;
+    for (const char* scheme :
+         {"galerkin-gauss-1", "galerkin-gauss-2", "galerkin-gauss-3", "galerkin-gauss-4"}) {
+        const ReadScene read = sceneOf(scheme, rows);
+        if (!read.resolved) {
+            std::printf("%s\n", read.errors.front().message.c_str());
+            return 1;
+        }
+        const ResolvedScene& scene = *read.resolved;
+        const ResolvedScheme& own = scene.schemes.front();
+        const double plain = best([&] {
+            const auto integrator = own.make(*scene.system, own.spec.step.value, scene.initial);
+            State state = scene.initial;
+            integrator->begin(state);
+            for (int k = 0; k + 1 < rows; ++k)
+                if (advance(*integrator, state).outcome != Outcome::converged) std::printf("failed\n");
+        });
+        RunDerivative run(scene, {.controls = {{"u", 2}}});
+        const Eigen::MatrixXd c = Eigen::MatrixXd::Constant(2, run.steps(), 0.1);
+        const double recorded = best([&] { (void)run.run(run.start(), c); });
+        const Eigen::VectorXd l = run.columnOf(Eigen::Vector2d(1, 0.5), 0, Eigen::VectorXd::Zero(3));
+        const double backward = best([&] {
+            RunDerivative::Derivatives by;
+            (void)run.differentiate(l, by);
+        });
+        const double ratio = (recorded + backward) / plain;
+        worst = std::max(worst, ratio);
+        std::printf("%-18s %10.3f %10.3f %10.3f %8.2f %8.2f\n", scheme, 1e3 * plain, 1e3 * recorded,
+                    1e3 * backward, ratio, (recorded + backward) / recorded);
+    }
+    std::printf("at most %.2f runs for a gradient by %d controls\n", worst, rows);
+    return 0;
+}
