@@ -3,7 +3,6 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
@@ -31,7 +30,7 @@ namespace extremal {
 namespace {
 
 const char* const key = "fit";
-constexpr int plotsInRow = 1, plotHeight = 240, mostColumns = 4;
+constexpr int leastHeight = 240, mostColumns = 4;
 enum TableColumn { nameColumn, nowColumn, valueColumn, deviationColumn, biasColumn };
 
 /// "theta and 2 more" would hide what is fitted: all names.
@@ -94,9 +93,9 @@ FitWindow::FitWindow(Workspace& workspace, Notices& notices, const Theme& theme,
     scroll->setFrameShape(QFrame::NoFrame);
     auto* inside = new QWidget;
     inside->setProperty("ground", "window");
-    grid_ = new QGridLayout(inside);
-    grid_->setContentsMargins(0, 0, 2, 0);
-    grid_->setSpacing(10);
+    column_ = new QVBoxLayout(inside);
+    column_->setContentsMargins(0, 0, 2, 0);
+    column_->setSpacing(10);
     scroll->setWidget(inside);
     splitter->addWidget(makeNumbers());
     splitter->addWidget(scroll);
@@ -358,12 +357,11 @@ void FitWindow::showPlots(const std::vector<Figure>& figures) {
         plots_.pop_back();
     }
     while (plots_.size() < figures.size()) {
-        auto* card = new Card({}, grid_->parentWidget());
+        auto* card = new Card({}, column_->parentWidget());
         auto* plot = new PlotWidget(theme_, card);
-        plot->setMinimumHeight(plotHeight);
+        plot->setMinimumHeight(leastHeight);
         card->body()->addWidget(plot, 1);
-        const int place = static_cast<int>(plots_.size());
-        grid_->addWidget(card, place / plotsInRow, place % plotsInRow);
+        column_->addWidget(card);
         plots_.push_back(plot);
     }
     for (std::size_t i = 0; i < plots_.size(); ++i) {

@@ -16,10 +16,10 @@
 #include "engine/study/fit/measured_data.hpp"
 #include "ui/base/theme.hpp"
 
-class QGridLayout;
 class QLabel;
 class QPushButton;
 class QTableWidget;
+class QVBoxLayout;
 
 namespace extremal {
 
@@ -68,7 +68,7 @@ private:
     QLabel *title_, *about_, *state_, *found_;
     QTableWidget* table_;
     QPushButton *file_, *start_;
-    QGridLayout* grid_;
+    QVBoxLayout* column_;
     std::vector<PlotWidget*> plots_;
 };
 

@@ -188,7 +188,7 @@ private:
         for (double length = 1; length >= shortest; length /= 2) {
             u_ = before + length * d;
             if (look() &&
-                merit(J_, r_) <= from - 1e-4 * length * (from - merit(JBefore, 0 * r_)) + rounding) {
+                merit(J_, r_) <= from - 1e-4 * length * (penalty_ * miss - slope) + rounding) {
                 const double change = (u_ - before).cwiseAbs().maxCoeff();
                 return change > 1e-15 * (1 + before.cwiseAbs().maxCoeff());
             }
