@@ -436,7 +436,7 @@ void MainWindow::addStudyActions() {
         {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_D)}, [this] { cellCosts_->toggle(); },
         tr("Shades the cells by what the wanted error costs with each, as measured"));
     actions_->add(
-        "fit", menu, tr("Fit to measurements..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_D)},
+        "fitMeasurements", menu, tr("Fit to measurements..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_D)},
         [this] { fitWindow().open(); },
         tr("Parameters and initial values from a CSV file, which may be dropped on the window as well"));
     actions_->add(

@@ -99,7 +99,7 @@ FitWindow::FitWindow(Workspace& workspace, Notices& notices, const Theme& theme,
     scroll->setWidget(inside);
     splitter->addWidget(makeNumbers());
     splitter->addWidget(scroll);
-    splitter->setSizes({480, 700});
+    splitter->setSizes({520, 660});
     layout->addWidget(splitter, 1);
     connect(job_, &FitJob::stepped, this, &FitWindow::showStep);
     connect(job_, &FitJob::ended, this, &FitWindow::showEnd);
@@ -120,8 +120,7 @@ QWidget* FitWindow::makeNumbers() {
     table_ = new QTableWidget(0, 5);
     table_->setObjectName("fitNumbers");
     table_->setAccessibleName(tr("Numbers that may move"));
-    table_->setHorizontalHeaderLabels(
-        {tr("number"), tr("now"), tr("fitted"), tr("deviation"), tr("bias of the step")});
+    table_->setHorizontalHeaderLabels({tr("number"), tr("now"), tr("fitted"), tr("deviation"), tr("bias")});
     table_->horizontalHeaderItem(biasColumn)
         ->setToolTip(tr("The number less that which fits with half the step: what the scheme, not the data, "
                         "puts in"));
