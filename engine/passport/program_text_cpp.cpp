@@ -131,7 +131,7 @@ void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0, 
     // With the equations R(Y; q_0, p_0, k) = 0 of the step: R_Y dY = -R_q dq_0 - R_p dp_0 - R_k dk.
     const auto moveColumns = [&] {
         const std::vector<double> before = *X, rest(d * N, 0.0);
-        std::vector<double> dY(m * d * N, 0.0), J(m * d * m * d, 0.0), dQ(d * N), dV(d * N);
+        std::vector<double> dY(m * d * N, 0.0), J(m * d * m * d, 0.0);
         for (int k = 0; k < d * N; ++k) dY[(m - 1) * d * N + k] = -before[d * N + k];
         for (int i = 0; i < n; ++i) {
             jacobian(at(i), i, J);
@@ -144,14 +144,12 @@ void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0, 
         for (int k = 0; k < d * N; ++k) (*X)[k] += dY[(m - 1) * d * N + k];
         for (int i = 0; i < n; ++i) {
             at(i);
-            for (int k = 0; k < d * N; ++k) {
-                dQ[k] = before[k];
-                dV[k] = 0;
+            std::vector<double> dQ(before.begin(), before.begin() + d * N), dV(d * N, 0.0);
+            for (int k = 0; k < d * N; ++k)
                 for (int a = 0; a < m; ++a) {
                     dQ[k] += phi[i][a] * dY[a * d * N + k];
                     dV[k] += dphi[i][a] * dY[a * d * N + k] / h;
                 }
-            }
             const std::vector<double> G = changes(t + c[i] * h, Q.data(), V.data(), dQ.data(), dV.data());
             for (int k = 0; k < d * N; ++k) (*X)[d * N + k] += h * b[i] * G[k];
         }

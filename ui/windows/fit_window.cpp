@@ -116,7 +116,9 @@ FitWindow::FitWindow(Workspace& workspace, Notices& notices, const Theme& theme,
 }
 
 QWidget* FitWindow::makeNumbers() {
+    constexpr int leastWidth = 400;  // of all columns, with short names
     auto* card = new Card(tr("Numbers that may move"), this);
+    card->setMinimumWidth(leastWidth);
     table_ = new QTableWidget(0, 5);
     table_->setObjectName("fitNumbers");
     table_->setAccessibleName(tr("Numbers that may move"));
