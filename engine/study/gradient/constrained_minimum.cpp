@@ -187,8 +187,7 @@ private:
                      rounding = 1e-14 * (std::abs(JBefore) + std::abs(lambda_.dot(missBefore)) + 1e-300);
         for (double length = 1; length >= shortest; length /= 2) {
             u_ = before + length * d;
-            if (look() &&
-                merit(J_, r_) <= from - 1e-4 * length * (penalty_ * miss - slope) + rounding) {
+            if (look() && merit(J_, r_) <= from - 1e-4 * length * (penalty_ * miss - slope) + rounding) {
                 const double change = (u_ - before).cwiseAbs().maxCoeff();
                 return change > 1e-15 * (1 + before.cwiseAbs().maxCoeff());
             }
