@@ -8,10 +8,11 @@
 #include "engine/core/switching.hpp"
 #include "engine/family/kept_momenta.hpp"
 #include "engine/model/parts/written_form.hpp"
+#include "engine/model/typed/motion_lines.hpp"
 #include "engine/model/typed/typed_model.hpp"
-#include "engine/model/typed/typeset.hpp"
 #include "engine/scene/outlook/topics.hpp"
 #include "engine/scene/read/json.hpp"
+#include "engine/scene/write/typed_scene.hpp"
 #include "engine/symmetry/symmetry.hpp"
 
 namespace extremal::app {
@@ -23,11 +24,11 @@ const Settings* typedSettings(const ResolvedScene& resolved) {
     return resolved.scene.model.type == "lagrangian" ? &resolved.scene.model : nullptr;
 }
 
-/// The Euler-Lagrange equations of a typed Lagrangian.
+/// The equations of motion of a typed model.
 Value equationsValue(const ResolvedScene& resolved) {
     Value::Array lines;
-    if (const Settings* const typed = typedSettings(resolved))
-        for (std::string& line : typed::equationLines(typed::formulaOf(*typed), typed::TextForm::plain))
+    if (const auto typed = typedModel(resolved))
+        for (std::string& line : typed::motionLines(*typed, typed::TextForm::plain))
             lines.emplace_back(std::move(line));
     return lines;
 }

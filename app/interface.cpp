@@ -244,9 +244,14 @@ void addProgram(CLI::App& app, Arguments& arguments) {
 
 void addFormulas(CLI::App& app, Arguments& arguments) {
     CLI::App& verb =
-        addVerb(app, arguments, "formulas", "the same scene with its model as a typed Lagrangian", true);
+        addVerb(app, arguments, "formulas",
+                "the same scene with its model as a typed Lagrangian, or the equations of motion", true);
     verb.add_option("--out", arguments.formulas.out, "the file; standard output by default")
         ->type_name("FILE");
+    verb.add_option("--equations", arguments.formulas.equations,
+                    "the equations of motion in place of the scene: text or tex")
+        ->type_name("FORM")
+        ->check(CLI::IsMember({"text", "tex"}).description(""));
     addCommon(verb, arguments.common);
 }
 
@@ -350,7 +355,9 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() 
          {"extremal gradient preset:pendulum --of 'theta^2/2' --with /model/l,/model/g,/initial/q/0 "
           "--out gradient"}},
         {"steer", {"extremal steer preset:swing-up --over 'u^2/2' --end theta-pi --end p_theta --out steer"}},
-        {"formulas", {"extremal formulas preset:four-bar-by-hand --out four-bar.json"}},
+        {"formulas",
+         {"extremal formulas preset:four-bar-by-hand --out four-bar.json",
+          "extremal formulas preset:banana --equations tex"}},
         {"check",
          {"extremal check preset:kepler",
           "extremal check preset:kepler --set '/schemes/-={\"scheme\": \"galerkin-gauss-4\", \"step\": "

@@ -50,7 +50,7 @@ inline const std::vector<VerbOptions>& optionTable() {
         {"gradient", joined({scene, words, files, {"--of", "--over", "--with", "--scheme"}})},
         {"steer",
          joined({scene, words, files, {"--control", "--of", "--over", "--end", "--bounds", "--scheme"}})},
-        {"formulas", joined({scene, {"--quiet"}, files})},
+        {"formulas", joined({scene, {"--quiet", "--equations"}, files})},
         {"check", joined({scene, words, limits})},
         {"study convergence", joined({scene, words, limits, files, study, sweep, ladder})},
         {"study work-precision", joined({scene, words, limits, files, study, sweep, ladder})},

@@ -89,7 +89,8 @@ struct ProgramRequest {
 };
 
 struct FormulasRequest {
-    std::string out;  ///< empty: standard output
+    std::string out;        ///< empty: standard output
+    std::string equations;  ///< "text" or "tex": the equations of motion in place of the scene; else empty
 };
 
 struct OrbitOptions : OrbitRequest {

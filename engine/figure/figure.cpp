@@ -10,6 +10,13 @@
 
 namespace extremal {
 
+const MovingCurve::Moment& MovingCurve::at(double t) const {
+    const double ahead = moments.back().t < moments.front().t ? -1 : 1;
+    const auto next = std::partition_point(moments.begin(), moments.end(),
+                                           [&](const Moment& m) { return ahead * m.t <= ahead * t; });
+    return next == moments.begin() ? *next : *(next - 1);
+}
+
 Figure makeFigure(const Comparison& comparison, const View& view) {
     const ModelEntry* model = findModel(comparison.scene.model.type);
     if (!model) return makeFigure(comparison, view, nullptr);

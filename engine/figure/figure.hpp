@@ -2,6 +2,7 @@
 /// A plot as data: what the window, the snapshots, the exports and the tests share. No Qt here.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,6 +51,17 @@ constexpr bool isParametric(SeriesKind kind) {
 /// Pale: of what has less weight than another layer of the same colour.
 enum class Tone { full, pale };
 
+/// A curve at several times.
+struct MovingCurve {
+    struct Moment {
+        double t = 0;
+        std::vector<double> x, y;
+    };
+    std::vector<Moment> moments;  ///< in the order of time
+    /// The last one that is not later; the first before all of them.
+    const Moment& at(double t) const;
+};
+
 /// The data of a scheme, or of a formula.
 struct Series {
     std::string label;      ///< the scheme's label
@@ -68,6 +80,8 @@ struct Series {
     /// Its place on the figure's ColourScale, from 0 to 1, which then gives its colour; empty: that of its
     /// style.
     std::optional<double> shade = {};
+    /// Of a curve that moves: x and y are its last moment.
+    std::shared_ptr<const MovingCurve> moving = {};
 };
 
 /// What the shades of series stand for: a linear scale beside the plot.

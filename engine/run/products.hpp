@@ -51,6 +51,13 @@ struct Sections {
     }
 };
 
+/// A ring of starts that moves with the scheme (observe/moving_ring.hpp), at rows: of each its points in the
+/// plane, and behind them the integral over it.
+struct MovedRings {
+    std::vector<Frame> frames;
+    void checkpoint(Archive& archive) { archive(frames); }
+};
+
 /// Of a comparison: one map per scheme that has a step.
 struct ParameterMaps {
     std::vector<std::shared_ptr<const ParameterMap>> all;
@@ -82,6 +89,7 @@ public:
     void checkpoint(Archive& archive) {
         exchange<DenseOutput>(archive);
         exchange<FieldFrames>(archive);
+        exchange<MovedRings>(archive);
         exchange<Sections>(archive);
         exchange<StepRecords>(archive);
         exchange<FoundEvents>(archive);
@@ -99,7 +107,7 @@ private:
             drop<P>();
     }
 
-    using Value = std::variant<DenseOutput, FieldFrames, Sections, StepRecords, ElementClocks, KktPattern,
+    using Value = std::variant<DenseOutput, FieldFrames, MovedRings, Sections, StepRecords, ElementClocks, KktPattern,
                                ActionDefect, ParameterMaps, StartSets, FoundEvents, FoundImpacts>;
     std::vector<Value> all_;
 };

@@ -31,6 +31,7 @@ enum class Product {
     steps,          ///< every step, of schemes whose times are unknowns
     parameterMap,   ///< errors over a grid of a parameter and the step
     starts,         ///< the motions from the starts of a view
+    rings,          ///< a ring of starts that moves with the scheme
 };
 
 /// What stands along the x axis of a view.

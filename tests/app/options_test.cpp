@@ -149,6 +149,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
         {"--json", words("--json")},
         {"--quiet", words("--quiet")},
         {"--threads", words("--threads 0")},
+        {"--equations", words("--equations tex")},
         {"--checkpoint", words("--checkpoint nan")},
         {"--view", words("--view error")},
         {"--time", words("--time 1")},

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/panels/lagrangian_editor.hpp"
 
-#include <QApplication>
-#include <QClipboard>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -15,6 +13,7 @@
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/theme.hpp"
+#include "ui/panels/equation_lines.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/parameter_table.hpp"
 #include "ui/panels/part_kinds.hpp"
@@ -54,7 +53,9 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(5);
     makeFormula(*column);
-    makeEquations(*column);
+    equations_ = new EquationLines(
+        tr("The Euler-Lagrange equations; λ is the multiplier of a constraint, the force that keeps it"));
+    column->addWidget(equations_);
     makeCoordinates(*column);
     parameters_ = new ParameterTable(
         workspace, [this](const EditsOfScene& edits, const QString& what, const FollowingText& follow) {
@@ -124,27 +125,6 @@ void LagrangianEditor::follow(const QString& link) {
     }
 }
 
-/// The equations of motion, with reactions and forces.
-void LagrangianEditor::makeEquations(QVBoxLayout& column) {
-    equations_ = makeLabel({}, "body");
-    equations_->setObjectName("equations");
-    equations_->setAccessibleName(tr("Equations of motion"));
-    equations_->setToolTip(
-        tr("The Euler-Lagrange equations; λ is the multiplier of a constraint, the force that keeps it"));
-    equations_->setWordWrap(true);
-    equations_->setTextFormat(Qt::RichText);
-    equations_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    column.addWidget(equations_);
-    copy_ = new QToolButton;
-    copy_->setObjectName("copyTex");
-    copy_->setText(tr("Copy as LaTeX"));
-    copy_->setToolTip(tr("The equations of motion for a document"));
-    copy_->hide();
-    connect(copy_, &QToolButton::clicked, this,
-            [this] { QApplication::clipboard()->setText(QString::fromStdString(tex_)); });
-    column.addWidget(copy_, 0, Qt::AlignLeft);
-}
-
 void LagrangianEditor::makeCoordinates(QVBoxLayout& column) {
     auto* row = new QHBoxLayout;
     row->setSpacing(6);
@@ -204,22 +184,10 @@ void LagrangianEditor::check() {
     });
 }
 
-void LagrangianEditor::showEquations(const Found& found) {
-    if (!found.lines.empty()) {
-        QString lines;
-        for (const std::string& line : found.lines)
-            lines += "<p style='margin:2px 0'>" + QString::fromStdString(line) + "</p>";
-        equations_->setText(lines);
-        tex_ = found.tex;
-    }
-    equations_->setVisible(!found.lines.empty());
-    copy_->setVisible(!found.lines.empty());
-}
-
 void LagrangianEditor::take(const Found& found) {
     if (found.text != text_->toPlainText().toStdString()) return;  // typed on since
     place_ = found.examination.position;
-    showEquations(found);
+    equations_->setEquations(found.lines, found.tex);
     if (isPending_) edit(found.text);
     showProblem();
 }

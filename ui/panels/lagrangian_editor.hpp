@@ -20,11 +20,11 @@
 
 class QLabel;
 class QLineEdit;
-class QToolButton;
 class QVBoxLayout;
 
 namespace extremal {
 
+class EquationLines;
 class FormulaEdit;
 class PartLines;
 class Workspace;
@@ -40,7 +40,6 @@ public:
 
 private:
     void makeFormula(QVBoxLayout& column);
-    void makeEquations(QVBoxLayout& column);
     void follow(const QString& link);
     void makeCoordinates(QVBoxLayout& column);
     void check();
@@ -53,7 +52,6 @@ private:
     };
     void take(const Found& found);
     void edit(const std::string& text);
-    void showEquations(const Found& found);
     void showProblem();
     void changeCoordinates();
     void takeNow();
@@ -63,9 +61,8 @@ private:
     Workspace& workspace_;
     TypedNames names_;
     FormulaEdit* text_;
-    QLabel *problem_, *equations_, *note_;
-    QToolButton* copy_;
-    std::string tex_;  ///< of the equations shown
+    QLabel *problem_, *note_;
+    EquationLines* equations_;
     PartLines* parts_;
     QLineEdit* coordinates_;
     ParameterTable* parameters_;

@@ -15,6 +15,7 @@
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/write/format.hpp"
 #include "ui/base/combo_box.hpp"
+#include "ui/panels/equation_lines.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/lagrangian_editor.hpp"
 #include "ui/panels/scene_fields.hpp"
@@ -31,11 +32,8 @@ bool hasOwnNames(const ModelEntry& entry) {
     return std::any_of(entry.item.parameters.begin(), entry.item.parameters.end(),
                        [](const FieldInfo& field) { return field.type == FieldType::names; });
 }
-/// It is given by a Lagrangian, which has a separate editor.
-bool isTyped(const ModelEntry& entry) {
-    return std::any_of(entry.item.parameters.begin(), entry.item.parameters.end(),
-                       [](const FieldInfo& field) { return field.key == "lagrangian"; });
-}
+/// It is given by a Lagrangian in coordinates, which has a separate editor.
+bool isTyped(const ModelEntry& entry) { return entry.item.id == "lagrangian"; }
 
 bool isPlainText(const Value& value) { return value.isNumber() || value.isString() || value.isBool(); }
 
@@ -193,12 +191,16 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     parameters_ = new Form(workspace);
     lagrangian_ = new LagrangianEditor(workspace);
     lagrangian_->hide();
+    equations_ = new EquationLines(
+        tr("Hamilton's equations; of a one-form dθ on the velocities, of a bracket the velocities"));
+    equations_->setObjectName("motion");
     initial_ = new Form(workspace);
     time_ = new Form(workspace);
     reference_ = new Form(workspace);
     body()->addWidget(model_);
     body()->addWidget(parameters_);
     body()->addWidget(lagrangian_);
+    body()->addWidget(equations_);
     body()->addWidget(new SymmetryLine(workspace));
     initialTitle_ = sectionLabel(tr("Initial data"));
     timeTitle_ = sectionLabel(tr("Time"));
@@ -259,6 +261,7 @@ void ScenePanel::rebuild() {
     if (!entry) return;
     keys += shapeOf(workspace_, entry->item.parameters, "/model/") +
             shapeOf(workspace_, entry->initial, "/initial/");
+    equations_->follow(isTyped(*entry) ? Settings{} : scene.model);  // its editor has them
     if (scene.model.type == shownModel_ && keys == shownInitial_) return;
     shownModel_ = scene.model.type;
     shownInitial_ = keys;

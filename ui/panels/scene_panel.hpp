@@ -10,6 +10,7 @@ class QComboBox;
 
 namespace extremal {
 
+class EquationLines;
 class Form;
 class LagrangianEditor;
 class Workspace;
@@ -33,6 +34,7 @@ private:
     Form *parameters_, *initial_, *time_, *reference_, *events_;
     QLabel *initialTitle_, *timeTitle_, *eventsTitle_;
     LagrangianEditor* lagrangian_;
+    EquationLines* equations_;  ///< of models that are typed, but not as a Lagrangian
     std::string shownModel_;
     std::string shownInitial_;  ///< which keys of the initial data are shown
     std::string shownReference_;

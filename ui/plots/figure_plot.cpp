@@ -129,9 +129,28 @@ void FigurePlot::setFigure(Figure figure) {
     }
     shared_->view.setLog(figure.x.isLog, figure.y.isLog);
     shared_->figure = std::move(figure);
+    moveCurves();
     shared_->fadedCells = {};
     shared_->view.setFitted(PlotAxis::x, toPlotRange(shared_->figure.x.range));
     shared_->view.setFitted(PlotAxis::y, toPlotRange(shared_->figure.y.range));
+}
+
+bool FigurePlot::setTime(std::optional<double> t) {
+    shared_->cursors.time = t;
+    return moveCurves();
+}
+
+bool FigurePlot::moveCurves() {
+    bool isAny = false;
+    for (Series& s : shared_->figure.series()) {
+        if (!s.moving) continue;
+        const std::optional<double> t = shared_->cursors.time;
+        const MovingCurve::Moment& now = t ? s.moving->at(*t) : s.moving->moments.back();
+        s.x = now.x;
+        s.y = now.y;
+        isAny = true;
+    }
+    return isAny;
 }
 
 bool FigurePlot::setStale(bool isStale) { return std::exchange(shared_->isStale, isStale) != isStale; }

@@ -46,6 +46,9 @@ public:
     void setFigure(Figure figure);
     /// Curves dimmed: a newer run is on its way. False if nothing changes.
     bool setStale(bool isStale);
+    /// The time of the cursor, at which curves that move are drawn; without one at their last. False if none
+    /// moves.
+    bool setTime(std::optional<double> t);
     void setHidden(const QString& label, bool isHidden);
     /// Drawn thicker and on top; empty: none. False if nothing changes.
     bool setHighlighted(const QString& label);
@@ -71,6 +74,8 @@ public:
     struct Shared;  ///< what the drawn layers look at
 
 private:
+    bool moveCurves();
+
     std::unique_ptr<Shared> shared_;
 };
 

@@ -123,7 +123,7 @@ void setUp(QCustomPlot& plot, FigurePlot& content, const Figure& figure, const P
     margins.setLeft(std::max(margins.left(), options.leftMargin));
     plot.axisRect()->setMinimumMargins(margins);
     content.setFigure(figure);
-    content.cursors().time = options.cursor;
+    content.setTime(options.cursor);
 }
 
 }  // namespace

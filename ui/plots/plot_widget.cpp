@@ -82,8 +82,10 @@ void PlotWidget::setTheme(const Theme& theme) {
 }
 
 void PlotWidget::setCursor(std::optional<double> t) {
-    impl_->content->cursors().time = t;
-    impl_->replotCursor();
+    if (impl_->content->setTime(t))
+        impl_->replot();
+    else
+        impl_->replotCursor();
 }
 
 void PlotWidget::setPinned(std::optional<double> t) {

@@ -100,6 +100,25 @@ struct Relation {
 
 }  // namespace
 
+PartTexts partTextsOf(const Settings& model) {
+    PartTexts parts;
+    const auto formulas = [&](const char* key) {
+        std::vector<std::pair<std::string, std::string>> all;
+        if (const Value* const value = model.find(key); value && value->isObject())
+            for (const auto& [name, text] : value->asObject())
+                if (text.isString()) all.emplace_back(name, text.asString());
+        return all;
+    };
+    parts.constraints = formulas("constraints");
+    parts.rolling = formulas("rolling");
+    parts.forces = formulas("forces");
+    if (const Value* const value = model.find("dissipation"); value && value->isString())
+        parts.dissipation = value->asString();
+    if (const Value* const value = model.find("controls"); value && value->isObject())
+        for (const auto& [name, text] : value->asObject()) parts.controls.push_back(name);
+    return parts;
+}
+
 std::vector<std::string> equationLines(const Formula& formula, const PartTexts& parts, TextForm form) {
     if (parts.isEmpty()) return equationLines(formula, form);
     const auto symbolic = differentiate(formula);
@@ -140,10 +159,14 @@ std::vector<std::string> equationLines(const Formula& formula, const PartTexts& 
 }
 
 std::string texOfEquations(const Formula& formula, const PartTexts& parts) {
+    return alignedTex(equationLines(formula, parts, TextForm::tex));
+}
+
+std::string alignedTex(std::vector<std::string> lines) {
+    if (lines.empty()) return {};
     std::string text = "\\begin{align*}\n";
-    const std::vector<std::string> lines = equationLines(formula, parts, TextForm::tex);
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        std::string line = lines[i];
+        std::string& line = lines[i];
         if (const auto equals = line.rfind(" = "); equals != std::string::npos) line.insert(equals + 1, "&");
         text += "  " + line + (i + 1 < lines.size() ? " \\\\\n" : "\n");
     }

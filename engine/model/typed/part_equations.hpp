@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/settings.hpp"
 #include "engine/model/typed/formula.hpp"
 #include "engine/model/typed/typeset.hpp"
 
@@ -27,11 +28,16 @@ struct PartTexts {
     }
 };
 
+/// Those of the keys of a typed model, written out from sums and names by index.
+PartTexts partTextsOf(const Settings& model);
+
 /// One line per coordinate, and one per relation; empty for formulas that would fill pages.
 /// Errors: ExpressionError, of the Lagrangian.
 std::vector<std::string> equationLines(const Formula& formula, const PartTexts& parts, TextForm form);
 
 /// The same as an environment of TeX, aligned at the equals signs.
 std::string texOfEquations(const Formula& formula, const PartTexts& parts);
+/// Lines of TeX as such an environment; empty where there are none.
+std::string alignedTex(std::vector<std::string> lines);
 
 }  // namespace extremal::typed

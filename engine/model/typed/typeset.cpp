@@ -47,11 +47,17 @@ SplitName splitName(const std::string& name) {
     return result;
 }
 
+/// An index that is a name: that of the momentum p_theta is a letter as well.
+std::string indexText(const std::string& index) {
+    const SplitName parts = splitName(index);
+    return parts.base == parts.word ? index : parts.base + parts.index;
+}
+
 std::string plainIndex(const std::string& index) {
     if (index.empty()) return {};
     const bool isNumber =
         std::all_of(index.begin(), index.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (!isNumber) return "_" + index;
+    if (!isNumber) return "_" + indexText(index);
     static constexpr std::array<const char*, 10> digits = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
     std::string text;
     for (const char c : index) text += digits[static_cast<std::size_t>(c - '0')];
@@ -85,8 +91,12 @@ std::string texName(const SplitName& parts, int dots) {
                        : isLetter               ? parts.word
                                                 : "\\mathrm{" + parts.word + "}";
     if (dots > 0) text = (dots == 1 ? "\\dot{" : "\\ddot{") + text + "}";
-    if (!parts.index.empty()) text += "_{" + parts.index + "}";
-    return text;
+    if (parts.index.empty()) return text;
+    const SplitName index = splitName(parts.index);
+    const bool isNumber = index.word[0] >= '0' && index.word[0] <= '9';
+    const bool isName =
+        index.base != index.word || (!isNumber && index.word.size() == 1 && !index.index.empty());
+    return text + "_{" + (isName ? texName(index, 0) : parts.index) + "}";
 }
 
 /// p / q with a small q, if the number is one.
@@ -171,7 +181,7 @@ private:
         if (isTex_) return texName(parts, primes);
         std::string text = italic(parts.base);
         if (!parts.index.empty())
-            text += isRich_ ? "<sub>" + parts.index + "</sub>" : plainIndex(parts.index);
+            text += isRich_ ? "<sub>" + indexText(parts.index) + "</sub>" : plainIndex(parts.index);
         if (primes > 0) text += primes == 1 ? "′" : "″";
         return text;
     }

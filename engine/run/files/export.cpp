@@ -11,6 +11,7 @@
 #include "engine/core/text/fingerprint.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/parts/potential_levels.hpp"
+#include "engine/observe/moving_ring.hpp"
 #include "engine/run/files/event_files.hpp"
 #include "engine/run/files/file_batch.hpp"
 #include "engine/run/files/starts_files.hpp"
@@ -200,6 +201,28 @@ std::string defectCsv(const ActionDefect& defect) {
     return text;
 }
 
+/// t, the point and its place in the plane of the ring, whose coordinates the header names.
+template <class Sink>
+void writeRings(const MovedRings& rings, const System& system, Sink&& sink) {
+    const auto columns = stateColumns(system);
+    std::string text = "t,point";
+    for (const std::size_t entry : MovingRing::planeOf(system)) text += "," + csvCell(columns[entry].name);
+    text += ",loop\n";
+    constexpr std::size_t n = MovingRing::size;
+    for (const Frame& frame : rings.frames) {
+        const std::vector<double>& values = *frame.values;
+        for (std::size_t j = 0; j < n; ++j) {
+            text += formatNumber(frame.t) + "," + std::to_string(j);
+            for (const double value : {values[j], values[n + j], values[2 * n]}) addNumber(text, value);
+            text += '\n';
+        }
+        if (text.size() < 1 << 16) continue;
+        sink(text);
+        text.clear();
+    }
+    sink(text);
+}
+
 template <class Sink>
 void writeSteps(const StepRecords& steps, Sink&& sink) {
     std::string text = "k,t,step,discrete_energy,density,outcome\n";
@@ -284,6 +307,11 @@ void addProducts(std::vector<ExportFile>& files, const std::string& slug, const 
                              [events = &sections->all[k].events](FileBatch& batch) {
                                  writeRows(*events, [&](const std::string& block) { batch.append(block); });
                              }});
+    if (const MovedRings* rings = scheme.products.find<MovedRings>(); rings && system)
+        files.push_back({slug + ".ring.csv", [rings, system](FileBatch& batch) {
+                             writeRings(*rings, *system,
+                                        [&](const std::string& block) { batch.append(block); });
+                         }});
     if (const FoundEvents* found = scheme.products.find<FoundEvents>())
         files.push_back(
             {slug + ".events.csv", [found](FileBatch& batch) { batch.append(eventsCsv(*found)); }});

@@ -177,6 +177,7 @@ void Recording::record(const NodeBlock& nodes, std::size_t i, double done) {
     for (std::size_t c = 0; c < width; ++c) result.trajectory.columns[c].values.push_back(kept[c]);
     result.trajectory.nodes.push_back(done);
     if (system.field && plan.has(Product::frames)) recordFrame(nodes.t(i), nodes.x(i), false);
+    if (ring && done == static_cast<double>(nodes.node(i))) recordRing(nodes.node(i), nodes.t(i));
     if (system.caution && result.summary.caution.empty()) {
         result.summary.caution = system.caution(nodes.x(i));
         if (!result.summary.caution.empty())
@@ -193,6 +194,29 @@ void Recording::recordFrame(double t, const double* x, bool isLast) {
             return picture;
         },
         result.products.make<FieldFrames>().all);
+}
+
+void Recording::startRing() {
+    const bool isOffered = plan.has(Product::rings) && integrator->grid() == TimeGrid::fixed &&
+                           !switching && appliesTo(*findObservable("loop"), system);
+    if (isOffered)
+        ring.emplace(ObserveContext{.system = system,
+                                    .initial = initialNode,
+                                    .reference = {},
+                                    .step = step,
+                                    .integrator = integrator.get()});
+}
+
+void Recording::recordRing(long long node, double t) {
+    if (!ring->moveTo(node)) return;
+    rings.offer(
+        t, false,
+        [&] {
+            auto points = std::make_shared<std::vector<double>>(ring->points());
+            points->push_back(ring->integral());
+            return points;
+        },
+        result.products.make<MovedRings>().frames);
 }
 
 void Recording::recordAlone(const State& at, const StepReport& report, std::span<const double> quantities,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/algebra/line_fit.hpp"
+#include "engine/observe/moving_ring.hpp"
 #include "engine/run/march/bound_observer.hpp"
 #include "engine/run/march/checkpoints.hpp"
 #include "engine/run/march/delayed_rows.hpp"
@@ -40,6 +41,8 @@ struct Recording {
     Observer denseError;  ///< measured along the dense output as well, where it is in the plan
     std::unique_ptr<Integrator> integrator;
     FrameKeeper frames;
+    std::optional<MovingRing> ring;  ///< where the plan has it
+    FrameKeeper rings;
     RowSampler sampler;
     std::vector<Bound> observers;
     SchemeResult result;
@@ -77,6 +80,8 @@ struct Recording {
     /// Makes node i of the block last evaluated a row, `done` steps from the start.
     void record(const NodeBlock& nodes, std::size_t i, double done);
     void recordFrame(double t, const double* x, bool isLast);
+    void startRing();
+    void recordRing(long long node, double t);
     /// A row off the nodes, or at the last of them.
     void recordAlone(const State& at, const StepReport& report, std::span<const double> quantities,
                      double done);

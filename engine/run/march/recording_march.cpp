@@ -43,6 +43,7 @@ void Recording::limitRows() {
     result.trajectory.nodes.clear();
     delayed.clear();
     result.products.drop<FieldFrames>();
+    result.products.drop<MovedRings>();
 }
 
 void Recording::account(const MarchReport& report, const State& at) {
@@ -108,6 +109,7 @@ void Recording::checkpoint(Archive& archive, MarchReport& report, MotionCheck& m
         if (b.observer.checkpoint) b.observer.checkpoint(archive);
     }
     archive(references);
+    if (ring) archive(*ring, rings);
 }
 
 std::vector<MarchSink> Recording::sinksFor(std::optional<EventWatch>& watch,
@@ -175,6 +177,7 @@ void Recording::run(const std::function<void()>& publish, SchemeCheckpoint* file
     if (stateWidth > 0)  // else no row holds a state
         inside.emplace(result, scene, plan, system, !scheme.isFixed(), steps, std::move(denseError));
     if (inside && !inside->isWanted()) inside.reset();
+    startRing();
     const MotionCheck freshMotion(system, initialNode, step, isEnergySeen);
     MotionCheck motion = freshMotion;
     std::vector<MarchSink> sinks = sinksFor(watch, inside, motion, isDense, publish);

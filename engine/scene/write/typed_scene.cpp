@@ -9,6 +9,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/model/parts/written_form.hpp"
+#include "engine/model/typed/motion_lines.hpp"
 #include "engine/scene/read/reader.hpp"
 #include "engine/scene/write/codec.hpp"
 
@@ -43,6 +44,12 @@ std::optional<Settings> saidBy(const ResolvedScene& resolved) {
 }
 
 }  // namespace
+
+std::optional<Settings> typedModel(const ResolvedScene& resolved) {
+    if (const auto* const form = resolved.system->parts.find<WrittenForm>()) return form->settings;
+    if (typed::hasMotionLines(resolved.scene.model)) return resolved.scene.model;
+    return saidBy(resolved);
+}
 
 Value typedScene(const ResolvedScene& resolved) {
     const Scene& scene = resolved.scene;

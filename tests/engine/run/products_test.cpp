@@ -72,6 +72,7 @@ private slots:
             // The export of a wave function is made of its frames.
             QCOMPARE(made.find<FieldFrames>() != nullptr, static_cast<bool>(system.field));
             QVERIFY2(is(made.find<Sections>(), {Product::sections}), id.c_str());
+            QVERIFY2(is(made.find<MovedRings>(), {Product::rings}), id.c_str());
             QVERIFY2(is(made.find<KktPattern>(), {Product::kktPattern}), id.c_str());
             QVERIFY2(is(made.find<ActionDefect>(), {Product::actionDefect}), id.c_str());
             QVERIFY2(is(c.products.find<ParameterMaps>(), {Product::parameterMap}), id.c_str());

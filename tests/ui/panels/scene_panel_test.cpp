@@ -5,10 +5,12 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QTest>
+#include <QToolButton>
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
 #include "ui/base/format.hpp"
+#include "ui/panels/equation_lines.hpp"
 #include "ui/panels/scene_panel.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/main_window.hpp"
@@ -48,6 +50,30 @@ private slots:
         enter(potential, "-mu*mass/sqrt(x^2+y^2+z^2) + k*Q33");
         QVERIFY(potential->property("invalid").toBool());
         QVERIFY(value("/model/potential")->asString().ends_with("k*R33"));
+    }
+    /// Hamilton's equations stand under H, and follow it.
+    void equationsOfTypedPhaseSpacesAreShown() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:three-species");
+        auto* equations = window.findChild<EquationLines*>("motion");
+        QVERIFY(equations);
+        auto* lines = equations->findChild<QLabel*>("equations");
+        QTRY_VERIFY(equations->isVisible() && lines->text().contains("<i>u</i>′ = "));
+        QTest::mouseClick(equations->findChild<QToolButton*>("copyTex"), Qt::LeftButton);
+        QVERIFY(QApplication::clipboard()->text().contains("\\dot{u} &= "));
+        window.open("preset:hamiltonian-chaos");
+        QTRY_VERIFY(lines->text().contains("<i>p</i><sub>q</sub>′ = "));
+        auto* energy = window.findChild<QLineEdit*>("field.hamiltonian");
+        if (energy) {
+            enter(energy, "p_q^2/2 + p_r^2/2 + q^4");
+            QTRY_VERIFY(lines->text().contains("−4 <i>q</i><sup>3</sup>"));
+        }
+        window.open("preset:kepler");
+        QTRY_VERIFY(!equations->isVisible());
+        window.open("preset:duffing");  // the editor of Lagrangians has its own
+        QTRY_VERIFY(window.findChild<QLabel*>("equations")->isVisible());
+        QVERIFY(!equations->isVisible());
     }
     void theReferenceIsChosen() {
         MainWindow window(Theme::light(), false);

@@ -260,23 +260,4 @@ std::optional<std::string> hamiltonianFaultAt(const PhaseMechanics& m, double t,
     return "is not finite, or has no finite derivatives, at the initial data";
 }
 
-std::vector<std::string> hamiltonLines(const Formula& formula, TextForm form) {
-    constexpr std::size_t longest = 3000;
-    const auto symbolic = differentiate(formula);
-    const int n = formula.dimension(), d = n / 2;
-    if (d > 12) return {};
-    Graph graph;
-    std::vector<int> slopes(symbolic->gradient.begin(), symbolic->gradient.begin() + n);
-    slopes = graph.adopt(symbolic->graph, slopes, [](int) { return std::optional<double>(); });
-    std::vector<std::string> lines;
-    for (int k = 0; k < n; ++k) {
-        const bool isRate = k < d;
-        const int slope = slopes[static_cast<std::size_t>(isRate ? d + k : k - d)];
-        const std::string left = typeset(graph, graph.symbol(n + k), formula, form),
-                          right = typeset(graph, isRate ? slope : graph.scaled(slope, -1), formula, form);
-        lines.push_back(left + " = " + (right.size() > longest ? "(too long to show)" : right));
-    }
-    return lines;
-}
-
 }  // namespace extremal::typed

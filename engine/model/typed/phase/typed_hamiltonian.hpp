@@ -15,7 +15,6 @@
 #include "engine/core/settings.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/model/typed/formula.hpp"
-#include "engine/model/typed/typeset.hpp"
 
 namespace extremal::typed {
 
@@ -34,8 +33,5 @@ TypedHamiltonian hamiltonianOf(const Formula& phaseFormula);
 /// What is wrong with H at a state; empty if nothing is.
 std::optional<std::string> hamiltonianFaultAt(const PhaseMechanics& mechanics, double t, const double* q,
                                               const double* p);
-
-/// "x′ = p_x", "p_x′ = -k x": Hamilton's equations, for people; empty for formulas that would fill pages.
-std::vector<std::string> hamiltonLines(const Formula& phaseFormula, TextForm form);
 
 }  // namespace extremal::typed

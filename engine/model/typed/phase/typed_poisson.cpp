@@ -90,22 +90,10 @@ using Parameters = std::vector<std::pair<std::string, double>>;
 
 std::vector<Entry> entriesOf(const Settings& settings, const std::vector<std::string>& names,
                              const Parameters& parameters) {
-    const Value* const given = settings.find("bracket");
-    if (!given->isObject())
-        throw InvalidScene("/bracket", "must be an object of formulas by pairs of variables",
-                           "\"" + names[0] + "," + names.back() + "\": \"1\", say");
     std::vector<Entry> entries;
-    for (const auto& [pair, text] : given->asObject()) {
-        const auto [i, j] = pairOf(pair, names);
-        const std::size_t first = std::min(i, j), second = std::max(i, j);
-        const bool isTwice = std::any_of(entries.begin(), entries.end(),
-                                         [&](const Entry& e) { return e.i == first && e.j == second; });
-        if (isTwice)
-            throw InvalidScene("/bracket/" + pair, pairName(names, i, j) + " is given twice",
-                               "one order of the pair: the other has the opposite sign");
-        const std::string formula = i < j ? text.asString() : "-(" + text.asString() + ")";
-        entries.push_back({first, second, TypedFunction(formula, "/bracket/" + pair, names, parameters)});
-    }
+    for (const BracketText& typed : bracketTextsOf(settings))
+        entries.push_back(
+            {typed.i, typed.j, TypedFunction(typed.text, typed.pointer, names, parameters)});
     return entries;
 }
 
@@ -161,6 +149,28 @@ void checkCasimir(const PoissonStructure& of, const PoissonStructure::Casimir& c
 }
 
 }  // namespace
+
+std::vector<BracketText> bracketTextsOf(const Settings& settings) {
+    const std::vector<std::string> names = variablesOf(settings);
+    const Value* const given = settings.find("bracket");
+    if (!given->isObject())
+        throw InvalidScene("/bracket", "must be an object of formulas by pairs of variables",
+                           "\"" + names[0] + "," + names.back() + "\": \"1\", say");
+    std::vector<BracketText> texts;
+    for (const auto& [pair, text] : given->asObject()) {
+        const auto [i, j] = pairOf(pair, names);
+        const std::size_t first = std::min(i, j), second = std::max(i, j);
+        const bool isTwice = std::any_of(texts.begin(), texts.end(), [&](const BracketText& e) {
+            return e.i == first && e.j == second;
+        });
+        if (isTwice)
+            throw InvalidScene("/bracket/" + pair, pairName(names, i, j) + " is given twice",
+                               "one order of the pair: the other has the opposite sign");
+        texts.push_back(
+            {first, second, i < j ? text.asString() : "-(" + text.asString() + ")", "/bracket/" + pair});
+    }
+    return texts;
+}
 
 TypedPoisson poissonOf(const Settings& settings) {
     const Parameters parameters = parametersOf(settings);

@@ -9,6 +9,7 @@
 /// under the place.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,15 @@
 #include "engine/model/first_order/poisson.hpp"
 
 namespace extremal::typed {
+
+/// {x_i, x_j}, i < j, as a formula.
+struct BracketText {
+    std::size_t i = 0, j = 0;
+    std::string text;
+    std::string pointer;  ///< where it was typed
+};
+/// Those that are typed. Throws InvalidScene.
+std::vector<BracketText> bracketTextsOf(const Settings& settings);
 
 struct TypedPoisson {
     std::vector<std::string> names;

@@ -42,14 +42,18 @@ std::vector<std::pair<std::string, double>> parametersOf(const Settings& setting
     return parameters;
 }
 
-TypedFunction typedEnergyOf(const Settings& settings, const std::vector<std::string>& names,
-                            const std::vector<std::pair<std::string, double>>& parameters) {
+std::string energyTextOf(const Settings& settings) {
     const Value* const typed = settings.find("hamiltonian");
     std::string energy = typed->isString() ? typed->asString() : "";
     if (typed->isObject())
         for (const auto& [name, text] : typed->asObject())
             energy += (energy.empty() ? "(" : " + (") + text.asString() + ")";
-    return {energy, "/hamiltonian", names, parameters};
+    return energy;
+}
+
+TypedFunction typedEnergyOf(const Settings& settings, const std::vector<std::string>& names,
+                            const std::vector<std::pair<std::string, double>>& parameters) {
+    return {energyTextOf(settings), "/hamiltonian", names, parameters};
 }
 
 void evaluateWhole(const TypedFunction& f, const double* x, double* value, double* gradient,

@@ -17,6 +17,8 @@ namespace extremal::typed {
 /// The names under "variables", at most 64, each with one meaning.
 std::vector<std::string> variablesOf(const Settings& settings);
 std::vector<std::pair<std::string, double>> parametersOf(const Settings& settings);
+/// The key "hamiltonian" as one formula, of an object the sum of its terms.
+std::string energyTextOf(const Settings& settings);
 /// "hamiltonian": a formula, or the sum of an object of formulas.
 TypedFunction typedEnergyOf(const Settings& settings, const std::vector<std::string>& names,
                             const std::vector<std::pair<std::string, double>>& parameters);
