@@ -44,16 +44,37 @@ bool isSmallObject(const Value* value) {
                        [](const Value::Member& m) { return isPlainText(m.second); });
 }
 
+bool hasRows(const FieldInfo& info, const Value* value) {
+    return (info.type == FieldType::json || info.type == FieldType::terms) && isSmallObject(value);
+}
+
+/// The terms of a formula, or formulas by variable: a row for each.
+void addTerms(const FieldInfo& info, const Value& terms, const std::string& place,
+              std::vector<FormField>& fields) {
+    for (const auto& [name, formula] : terms.asObject()) {
+        FieldInfo row = textField(name, name, nullptr, info.description);
+        row.title = name;
+        const QString shown = QString::fromStdString(name).toHtmlEscaped();
+        fields.push_back(
+            {std::move(row),
+             place + "/" + name,
+             info.symbol.empty() ? shown
+                                 : QString::fromStdString(info.symbol) + QString("<sub>%1</sub>").arg(shown),
+             {}});
+    }
+}
+
 /// A parameter: one row, or where it is a small object (a potential by name, a wave packet) one for each of
 /// its members. What the object is, its member `name` or `packet`, brings the defaults of its kind.
 void addFields(const Workspace& workspace, const FieldInfo& info, const std::string& place,
                std::vector<FormField>& fields) {
     const Value* value = valueAt(workspace.document(), place);
     if (addElementFields(info, value, place, fields)) return;
-    if (info.type != FieldType::json || !isSmallObject(value)) {
+    if (!hasRows(info, value)) {
         fields.push_back({info, place, {}, {}});
         return;
     }
+    if (info.type == FieldType::terms) return addTerms(info, *value, place, fields);
     for (const auto& [key, member] : value->asObject()) {
         const bool isKind = key == "name" || key == "packet";
         FieldInfo row = isKind ? textField(key, info.title, nullptr, info.description)
@@ -86,7 +107,7 @@ std::string shapeOf(const Workspace& workspace, const std::vector<FieldInfo>& in
     for (const FieldInfo& info : infos) {
         const Value* value = valueAt(workspace.document(), part + info.key);
         shape += shapeOfElements(info, value);
-        if (info.type != FieldType::json || !isSmallObject(value)) continue;
+        if (!hasRows(info, value)) continue;
         shape += ' ' + info.key;
         for (const Value::Member& member : value->asObject()) shape += '.' + member.first;
     }

@@ -46,10 +46,11 @@ void checkPhaseSpace(const Settings&, const System& system, const State& initial
 }
 
 std::vector<FieldInfo> phaseSpaceFields() {
-    const FieldInfo form = termsField(
+    FieldInfo form = termsField(
         "one_form", "one-form", Value::Object{{"x", "y"}},
         "theta by variable, formulas in the variables: {\"x\": \"y\"} is y x'. Variables that are left out "
         "have no velocity in L.");
+    form.symbol = "θ";
     return {namesField("variables", {"x", "y"}, "Names of the variables, an even number."), parametersField(),
             form, typed::hamiltonianField("(x^2 + y^2)/2")};
 }
