@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What the rates at the nodes of the next step may be: those of the last step, continued as polynomials, and
-/// what such a guess has been off by in the steps before, continued as well.
+/// what such a guess was off by in the steps before, continued as well.
 ///
-/// With g_k = ahead X_{k-1} and the offsets o_k = X_k - g_k, the guesses for X_{k+1} are
-///     g_{k+1},    g_{k+1} + o_k,    g_{k+1} + 2 o_k - o_{k-1},
-/// each of one order more in the step. The one that would have been best for X_k is taken: where steps are
-/// long for the motion, that is the first.
+/// With g_k = ahead X_{k-1}, the offsets o_k = X_k - g_k and their backward differences D^j o_k, the guess for
+/// X_{k+1} is
+///     g_{k+1} + sum_{j < r} D^j o_k,
+/// whose order in the step grows with r. For X_k that guess would have been off by D^r o_k: r is the first one
+/// with a smaller one than the next. Where steps are long for the motion, that is 0.
 ///
 /// X: K and F, node i and coordinate j at (i, j).
 #pragma once
@@ -25,8 +26,8 @@ public:
     using Nodes = Eigen::Matrix<double, Eigen::Dynamic, D>;
 
     NodeGuess(int nodes, int dimension) {
-        for (Rates* each : {&now_, &offsets_[0], &offsets_[1], &offsets_[2]})
-            each->K = each->F = Nodes::Zero(nodes, dimension);
+        first_.K = first_.F = older_.K = older_.F = Nodes::Zero(nodes, dimension);
+        differences_.fill(first_);
     }
 
     /// The next step does not follow on the last one.
@@ -36,42 +37,42 @@ public:
     }
     /// Of the rates of the last step to a guess for the next one.
     void make(const Eigen::MatrixXd& ahead, const Nodes& K, const Nodes& F, Nodes& nextK, Nodes& nextF) {
-        now_.K.noalias() = ahead.lazyProduct(K);
-        now_.F.noalias() = ahead.lazyProduct(F);
+        first_.K.noalias() = ahead.lazyProduct(K);
+        first_.F.noalias() = ahead.lazyProduct(F);
         isMade_ = true;
-        nextK = now_.K;
-        nextF = now_.F;
-        if (order_ == 0) return;
-        nextK += order_ * offsets_[0].K;
-        nextF += order_ * offsets_[0].F;
-        if (order_ == 1) return;
-        nextK -= offsets_[1].K;
-        nextF -= offsets_[1].F;
+        nextK = first_.K;
+        nextF = first_.F;
+        for (std::size_t j = 0; j < order_; ++j) {
+            nextK += differences_[j].K;
+            nextF += differences_[j].F;
+        }
     }
     /// The rates that the step has come to.
     void learn(const Nodes& K, const Nodes& F) {
         if (!isMade_) return forget();
         isMade_ = false;
-        offsets_[2].swap(offsets_[1]);
-        offsets_[1].swap(offsets_[0]);
-        offsets_[0].K = K - now_.K;
-        offsets_[0].F = F - now_.F;
-        known_ = known_ < 3 ? known_ + 1 : 3;
-        order_ = 0;
-        if (known_ < 2) return;
-        const auto& [last, before, first] = offsets_;
+        newer_.K = K - first_.K;
+        newer_.F = F - first_.F;
         const double scaleK = size(K), scaleF = size(F);
-        const double none = size(last.K) / scaleK + size(last.F) / scaleF,
-                     one = size(last.K - before.K) / scaleK + size(last.F - before.F) / scaleF;
-        if (!(one < none)) return;
-        order_ = 1;
-        if (known_ < 3) return;
-        const double two = size(last.K - 2 * before.K + first.K) / scaleK +
-                           size(last.F - 2 * before.F + first.F) / scaleF;
-        if (two < one) order_ = 2;
+        double off = size(newer_.K) / scaleK + size(newer_.F) / scaleF;
+        bool isShrinking = true;
+        order_ = 0;
+        for (std::size_t j = 0; j < differences_.size(); ++j) {
+            older_.swap(differences_[j]);
+            differences_[j].swap(newer_);
+            if (j == known_ || j + 1 == differences_.size()) break;
+            newer_.K = differences_[j].K - older_.K;
+            newer_.F = differences_[j].F - older_.F;
+            if (!isShrinking) continue;
+            const double next = size(newer_.K) / scaleK + size(newer_.F) / scaleF;
+            isShrinking = next < off;
+            if (isShrinking) order_ = j + 1;
+            off = next;
+        }
+        if (known_ < differences_.size()) ++known_;
     }
     void checkpoint(Archive& archive) {
-        for (Rates& each : offsets_) archive(each.K, each.F);
+        for (Rates& each : differences_) archive(each.K, each.F);
         archive(known_, order_);
     }
 
@@ -88,9 +89,10 @@ private:
         return values.cwiseAbs().sum() + 1e-300;
     }
 
-    Rates now_;                     ///< the first guess of the step that is being made
-    std::array<Rates, 3> offsets_;  ///< of the last steps, the latest first
-    int known_ = 0, order_ = 0;     ///< how many of them, and how many are used
+    Rates first_;                        ///< the guess of the step that is being made, with r = 0
+    std::array<Rates, 5> differences_;   ///< D^j o of the last step
+    Rates newer_, older_;                ///< while they are renewed
+    std::size_t known_ = 0, order_ = 0;  ///< how many of them, and r
     bool isMade_ = false;
 };
 
