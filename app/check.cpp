@@ -12,7 +12,6 @@
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/scene/outlook/topics.hpp"
 #include "engine/scene/read/json.hpp"
-#include "engine/scene/write/typed_scene.hpp"
 #include "engine/symmetry/symmetry.hpp"
 
 namespace extremal::app {
@@ -27,7 +26,8 @@ const Settings* typedSettings(const ResolvedScene& resolved) {
 /// The equations of motion of a typed model.
 Value equationsValue(const ResolvedScene& resolved) {
     Value::Array lines;
-    if (const auto typed = typedModel(resolved))
+    const Settings& model = resolved.scene.model;
+    if (const Settings* const typed = typed::hasMotionLines(model) ? &model : typedSettings(resolved))
         for (std::string& line : typed::motionLines(*typed, typed::TextForm::plain))
             lines.emplace_back(std::move(line));
     return lines;
