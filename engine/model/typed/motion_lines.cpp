@@ -24,7 +24,7 @@ constexpr int mostVariables = 24;
 /// A graph of several formulas in the same names, whose rates are the velocities of typed/formula.hpp.
 class Equations {
 public:
-    Equations(Formula names, TextForm form) : names_(std::move(names)), form_(form) {}
+    Equations(Formula variables, TextForm form) : names_(std::move(variables)), form_(form) {}
 
     int dimension() const { return names_.dimension(); }
     /// The derivatives of a formula by its variables, and behind them its value.
@@ -78,10 +78,10 @@ std::vector<std::string> hamiltonLines(const Settings& model, TextForm form) {
 
 /// Names and parameters of a model in typed variables.
 Formula variableNames(const Settings& model) {
-    Formula names;
-    names.coordinates = variablesOf(model);
-    names.parameters = parametersOf(model);
-    return names;
+    Formula made;
+    made.coordinates = variablesOf(model);
+    made.parameters = parametersOf(model);
+    return made;
 }
 
 std::vector<std::string> oneFormLines(const Settings& model, TextForm form) {
