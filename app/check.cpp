@@ -8,7 +8,7 @@
 #include "engine/core/switching.hpp"
 #include "engine/family/kept_momenta.hpp"
 #include "engine/model/parts/written_form.hpp"
-#include "engine/model/typed/motion_lines.hpp"
+#include "engine/model/typed/phase/motion_lines.hpp"
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/scene/outlook/topics.hpp"
 #include "engine/scene/read/json.hpp"

@@ -2,7 +2,7 @@
 #include "app/load.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
-#include "engine/model/typed/motion_lines.hpp"
+#include "engine/model/typed/phase/motion_lines.hpp"
 #include "engine/run/files/export.hpp"
 #include "engine/scene/read/json.hpp"
 #include "engine/scene/write/typed_scene.hpp"
@@ -17,15 +17,17 @@ std::string equationsOf(const ResolvedScene& resolved, bool isTex) {
     const auto text = [&](const Settings& typed) {
         if (isTex) return typed::texOfMotion(typed);
         std::string lines;
-        for (const std::string& line : typed::motionLines(typed, typed::TextForm::plain)) lines += line + "\n";
+        for (const std::string& line : typed::motionLines(typed, typed::TextForm::plain))
+            lines += line + "\n";
         return lines;
     };
     std::string written = model ? text(*model) : std::string();
     if (written.empty())
-        throw InvalidScene("/model/type",
-                           resolved.scene.model.type + (model ? " has too many equations to show"
-                                                              : " does not say its equations"),
-                           "typed models of up to 12 freedoms, mechanisms and most models with coordinates do");
+        throw InvalidScene(
+            "/model/type",
+            resolved.scene.model.type +
+                (model ? " has too many equations to show" : " does not say its equations"),
+            "typed models of up to 12 freedoms, mechanisms and most models with coordinates do");
     return written;
 }
 

@@ -2,11 +2,11 @@
 /// What the rates at the nodes of the next step may be: those of the last step, continued as polynomials, and
 /// what such a guess was off by in the steps before, continued as well.
 ///
-/// With g_k = ahead X_{k-1}, the offsets o_k = X_k - g_k and their backward differences D^j o_k, the guess for
-/// X_{k+1} is
+/// With g_k = ahead X_{k-1}, the offsets o_k = X_k - g_k and their backward differences D^j o_k, the guess
+/// for X_{k+1} is
 ///     g_{k+1} + sum_{j < r} D^j o_k,
-/// whose order in the step grows with r. For X_k that guess would have been off by D^r o_k: r is the first one
-/// with a smaller one than the next. Where steps are long for the motion, that is 0.
+/// whose order in the step grows with r. For X_k that guess would have been off by D^r o_k: r is the first
+/// one with a smaller one than the next. Where steps are long for the motion, that is 0.
 ///
 /// X: K and F, node i and coordinate j at (i, j).
 #pragma once

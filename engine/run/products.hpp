@@ -107,8 +107,8 @@ private:
             drop<P>();
     }
 
-    using Value = std::variant<DenseOutput, FieldFrames, MovedRings, Sections, StepRecords, ElementClocks, KktPattern,
-                               ActionDefect, ParameterMaps, StartSets, FoundEvents, FoundImpacts>;
+    using Value = std::variant<DenseOutput, FieldFrames, MovedRings, Sections, StepRecords, ElementClocks,
+                               KktPattern, ActionDefect, ParameterMaps, StartSets, FoundEvents, FoundImpacts>;
     std::vector<Value> all_;
 };
 

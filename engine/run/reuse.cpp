@@ -24,7 +24,8 @@ bool isSameProblem(const Scene& a, const Scene& b) {
 
 /// Whether what `wanted` needs from inside the steps is among what another view needed.
 bool suffices(const View& has, const View& wanted) {
-    for (const Product product : {Product::denseError, Product::kktPattern, Product::actionDefect, Product::rings})
+    for (const Product product :
+         {Product::denseError, Product::kktPattern, Product::actionDefect, Product::rings})
         if (needs(wanted, product) && !needs(has, product)) return false;
     if (needs(wanted, Product::sections) && !(needs(has, Product::sections) && has.at == wanted.at))
         return false;

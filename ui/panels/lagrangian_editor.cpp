@@ -13,7 +13,7 @@
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/theme.hpp"
-#include "ui/panels/equation_lines.hpp"
+#include "ui/text/equation_lines.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/parameter_table.hpp"
 #include "ui/panels/part_kinds.hpp"

@@ -15,7 +15,7 @@
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/write/format.hpp"
 #include "ui/base/combo_box.hpp"
-#include "ui/panels/equation_lines.hpp"
+#include "ui/text/equation_lines.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/lagrangian_editor.hpp"
 #include "ui/panels/scene_fields.hpp"
@@ -55,12 +55,12 @@ void addTerms(const FieldInfo& info, const Value& terms, const std::string& plac
         FieldInfo row = textField(name, name, nullptr, info.description);
         row.title = name;
         const QString shown = QString::fromStdString(name).toHtmlEscaped();
-        fields.push_back(
-            {std::move(row),
-             place + "/" + name,
-             info.symbol.empty() ? shown
-                                 : QString::fromStdString(info.symbol) + QString("<sub>%1</sub>").arg(shown),
-             {}});
+        fields.push_back({std::move(row),
+                          place + "/" + name,
+                          info.symbol.empty()
+                              ? shown
+                              : QString::fromStdString(info.symbol) + QString("<sub>%1</sub>").arg(shown),
+                          {}});
     }
 }
 

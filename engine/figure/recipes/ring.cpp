@@ -37,9 +37,10 @@ std::pair<double, double> rangeOf(const Figure& figure, const Comparison& compar
         std::vector<double>& all = values.emplace_back();
         for (const MovingCurve::Moment& moment : s.moving->moments)
             all.insert(all.end(), (moment.*component).begin(), (moment.*component).end());
-        const bool hasFailed = std::any_of(
-            comparison.schemes.begin(), comparison.schemes.end(),
-            [&](const auto& r) { return r->spec.label == s.label && r->summary.status == RunStatus::failed; });
+        const bool hasFailed =
+            std::any_of(comparison.schemes.begin(), comparison.schemes.end(), [&](const auto& r) {
+                return r->spec.label == s.label && r->summary.status == RunStatus::failed;
+            });
         inputs.push_back({all, hasFailed});
     }
     return fitRange(inputs, false);

@@ -11,9 +11,9 @@
 #include "engine/core/text/fingerprint.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/parts/potential_levels.hpp"
-#include "engine/observe/moving_ring.hpp"
 #include "engine/run/files/event_files.hpp"
 #include "engine/run/files/file_batch.hpp"
+#include "engine/run/files/ring_files.hpp"
 #include "engine/run/files/starts_files.hpp"
 #include "engine/run/missing.hpp"
 #include "engine/scene/bind.hpp"
@@ -199,28 +199,6 @@ std::string defectCsv(const ActionDefect& defect) {
             .append(formatNumber(defect.defect[i]))
             .append("\n");
     return text;
-}
-
-/// t, the point and its place in the plane of the ring, whose coordinates the header names.
-template <class Sink>
-void writeRings(const MovedRings& rings, const System& system, Sink&& sink) {
-    const auto columns = stateColumns(system);
-    std::string text = "t,point";
-    for (const std::size_t entry : MovingRing::planeOf(system)) text += "," + csvCell(columns[entry].name);
-    text += ",loop\n";
-    constexpr std::size_t n = MovingRing::size;
-    for (const Frame& frame : rings.frames) {
-        const std::vector<double>& values = *frame.values;
-        for (std::size_t j = 0; j < n; ++j) {
-            text += formatNumber(frame.t) + "," + std::to_string(j);
-            for (const double value : {values[j], values[n + j], values[2 * n]}) addNumber(text, value);
-            text += '\n';
-        }
-        if (text.size() < 1 << 16) continue;
-        sink(text);
-        text.clear();
-    }
-    sink(text);
 }
 
 template <class Sink>

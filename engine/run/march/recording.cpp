@@ -197,8 +197,8 @@ void Recording::recordFrame(double t, const double* x, bool isLast) {
 }
 
 void Recording::startRing() {
-    const bool isOffered = plan.has(Product::rings) && integrator->grid() == TimeGrid::fixed &&
-                           !switching && appliesTo(*findObservable("loop"), system);
+    const bool isOffered = plan.has(Product::rings) && integrator->grid() == TimeGrid::fixed && !switching &&
+                           appliesTo(*findObservable("loop"), system);
     if (isOffered)
         ring.emplace(ObserveContext{.system = system,
                                     .initial = initialNode,

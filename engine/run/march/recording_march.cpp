@@ -115,6 +115,7 @@ void Recording::checkpoint(Archive& archive, MarchReport& report, MotionCheck& m
 std::vector<MarchSink> Recording::sinksFor(std::optional<EventWatch>& watch,
                                            std::optional<InsideStep>& inside, MotionCheck& motion,
                                            bool isDense, const std::function<void()>& publish) {
+    startRing();
     std::vector<MarchSink> sinks;
     const bool readsQuantities = std::any_of(observers.begin(), observers.end(),
                                              [](const Bound& b) { return b.observer.readsQuantities; });
@@ -177,7 +178,6 @@ void Recording::run(const std::function<void()>& publish, SchemeCheckpoint* file
     if (stateWidth > 0)  // else no row holds a state
         inside.emplace(result, scene, plan, system, !scheme.isFixed(), steps, std::move(denseError));
     if (inside && !inside->isWanted()) inside.reset();
-    startRing();
     const MotionCheck freshMotion(system, initialNode, step, isEnergySeen);
     MotionCheck motion = freshMotion;
     std::vector<MarchSink> sinks = sinksFor(watch, inside, motion, isDense, publish);

@@ -9,7 +9,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/model/parts/written_form.hpp"
-#include "engine/model/typed/motion_lines.hpp"
+#include "engine/model/typed/phase/motion_lines.hpp"
 #include "engine/scene/read/reader.hpp"
 #include "engine/scene/write/codec.hpp"
 

@@ -108,7 +108,8 @@ private slots:
         const Value summary = summaryValue(result);
         std::string files;
         for (const Value& file : summary.find("files")->asArray()) files += file.asString() + " ";
-        QVERIFY(files.find("g.ring.csv") != std::string::npos && files.find("r.ring.csv") != std::string::npos);
+        QVERIFY(files.find("g.ring.csv") != std::string::npos &&
+                files.find("r.ring.csv") != std::string::npos);
         QVERIFY(files.find("a.ring.csv") == std::string::npos);
     }
     void stepsOfTheirOwnHaveNone() {

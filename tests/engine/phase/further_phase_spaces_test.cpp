@@ -74,33 +74,32 @@ System typedModel(const char* type, Settings settings) {
 
 /// H = sqrt(1 + (p_x - A)^2 + (p_y + B)^2), A = .4 sin(2 x - 1.5 t), B = .3 cos(x + y).
 Case travellingWave() {
-    return {typedModel("hamiltonian",
-                       {"",
-                        {{"coordinates", Value::Array{"x", "y"}},
-                         {"parameters", Value(Value::Object{})},
-                         {"hamiltonian", "sqrt(1 + (p_x - .4*sin(2*x - 1.5*t))^2 + (p_y + .3*cos(x + y))^2)"}},
-                        {}}),
-            {0, 0, {0.3, -0.2, 0.8, 0.5}},
-            [](Real t, const Reals& x, Reals& dx) {
-                const Real A = 0.4L * std::sin(2 * x[0] - 1.5L * t), slope = 0.8L * std::cos(2 * x[0] - 1.5L * t),
-                           u = x[2] - A, w = x[3] + 0.3L * std::cos(x[0] + x[1]),
-                           fall = -0.3L * std::sin(x[0] + x[1]), gamma = std::sqrt(1 + u * u + w * w);
-                dx = {u / gamma, w / gamma, (u * slope - w * fall) / gamma, -w * fall / gamma};
-            },
-            2};
+    return {
+        typedModel("hamiltonian",
+                   {"",
+                    {{"coordinates", Value::Array{"x", "y"}},
+                     {"parameters", Value(Value::Object{})},
+                     {"hamiltonian", "sqrt(1 + (p_x - .4*sin(2*x - 1.5*t))^2 + (p_y + .3*cos(x + y))^2)"}},
+                    {}}),
+        {0, 0, {0.3, -0.2, 0.8, 0.5}},
+        [](Real t, const Reals& x, Reals& dx) {
+            const Real A = 0.4L * std::sin(2 * x[0] - 1.5L * t), slope = 0.8L * std::cos(2 * x[0] - 1.5L * t),
+                       u = x[2] - A, w = x[3] + 0.3L * std::cos(x[0] + x[1]),
+                       fall = -0.3L * std::sin(x[0] + x[1]), gamma = std::sqrt(1 + u * u + w * w);
+            dx = {u / gamma, w / gamma, (u * slope - w * fall) / gamma, -w * fall / gamma};
+        },
+        2};
 }
 /// H_pp = diag(e^y, 0) everywhere: no Legendre transform, and not linear in p either.
 Case singularMasses() {
-    return {typedModel("hamiltonian",
-                       {"",
-                        {{"coordinates", Value::Array{"x", "y"}},
-                         {"parameters", Value(Value::Object{})},
-                         {"hamiltonian", "exp(y)*p_x^2/2 + p_y*sin(x) + y^2/2 + cos(x)/2"}},
-                        {}}),
+    return {typedModel("hamiltonian", {"",
+                                       {{"coordinates", Value::Array{"x", "y"}},
+                                        {"parameters", Value(Value::Object{})},
+                                        {"hamiltonian", "exp(y)*p_x^2/2 + p_y*sin(x) + y^2/2 + cos(x)/2"}},
+                                       {}}),
             {0, 0, {0.4, 0.1, 0.7, -0.3}},
             [](Real, const Reals& x, Reals& dx) {
-                dx = {std::exp(x[1]) * x[2], std::sin(x[0]),
-                      -x[3] * std::cos(x[0]) + std::sin(x[0]) / 2,
+                dx = {std::exp(x[1]) * x[2], std::sin(x[0]), -x[3] * std::cos(x[0]) + std::sin(x[0]) / 2,
                       -std::exp(x[1]) * x[2] * x[2] / 2 - x[1]};
             },
             2};
@@ -116,14 +115,13 @@ Case onAParaboloid() {
                                                     {"y", "w + x*(1 + y^2)/3 + u*w + .3*x*w"},
                                                     {"u", "x*u + y*w"},
                                                     {"w", "y*u + .3*x*y"}}},
-                         {"hamiltonian",
-                          "(u^2 + w^2 - (x*u + y*w)^2/(1 + x^2 + y^2))/2 + (x^2 + y^2)/4"}},
+                         {"hamiltonian", "(u^2 + w^2 - (x*u + y*w)^2/(1 + x^2 + y^2))/2 + (x^2 + y^2)/4"}},
                         {}}),
             {0, 0, {0.3, 0.5, -0.4, 0.2}},
             [](Real, const Reals& at, Reals& dx) {
                 const Real u = at[0], x = at[1], w = at[2], y = at[3], D = 1 + x * x + y * y,
-                           s = (x * u + y * w) / D, B = (1 + x * x) / 2 + (1 + y * y) / 3,
-                           dx_ = u - s * x, dy = w - s * y;
+                           s = (x * u + y * w) / D, B = (1 + x * x) / 2 + (1 + y * y) / 3, dx_ = u - s * x,
+                           dy = w - s * y;
                 dx = {B * dy + s * u - s * s * x - x / 2, dx_, -B * dx_ + s * w - s * s * y - y / 2, dy};
             }};
 }
@@ -228,8 +226,8 @@ private slots:
         QFETCH(int, degree);
         QFETCH(int, nodes);
         const Case of = caseOf(name);
-        const Discretization d = laws::polynomialPair(
-            degree, {rule.toStdString(), {{"nodes", static_cast<double>(nodes)}}, {}});
+        const Discretization d =
+            laws::polynomialPair(degree, {rule.toStdString(), {{"nodes", static_cast<double>(nodes)}}, {}});
         const auto claims = describe(d, of.system).claims;
         QCOMPARE(claims.order, 2 * degree);
         QVERIFY(claims.isSymplectic);
@@ -254,8 +252,8 @@ private slots:
         QFETCH(QString, name);
         const Case of = caseOf(name);
         const bool isCanonical = of.half > 0;
-        const Settings other = isCanonical ? Settings{"rk4", {}, {}}
-                                           : Settings{"gauss-collocation", {{"stages", 2.0}}, {}};
+        const Settings other =
+            isCanonical ? Settings{"rk4", {}, {}} : Settings{"gauss-collocation", {{"stages", 2.0}}, {}};
         const auto integrator = findBaseline(other.type)->make(of.system, {0.1, of.start, 0, other});
         const double lost = defect(of, *integrator);
         qInfo("%.1e", lost);
@@ -295,8 +293,8 @@ private slots:
         Reals x(of.start.x.begin(), of.start.x.begin() + 3);
         const Reals there = extrapolated(of.rates, std::move(x), 4);
         const auto schemeWith = [&](int steps) {
-            return "{\"scheme\": \"galerkin-gauss-" + std::to_string(degree) + "\", \"step\": " +
-                   std::to_string(4.0 / steps) +
+            return "{\"scheme\": \"galerkin-gauss-" + std::to_string(degree) +
+                   "\", \"step\": " + std::to_string(4.0 / steps) +
                    (isKept ? ", \"keep\": [\"energy\", \"casimir.C\"]}" : "}");
         };
         const auto errorWith = [&](int steps) {

@@ -72,7 +72,8 @@ End runOf(double e, int degree, double step, const QByteArray& monitor, double e
 }
 /// The time that so many steps take, all of them equal in tau.
 double timeOf(double e, int degree, double first, int steps, const QByteArray& monitor) {
-    const ReadScene scene = readScene(keplerScene(e, gaussScheme(degree, first, monitor), span).toStdString());
+    const ReadScene scene =
+        readScene(keplerScene(e, gaussScheme(degree, first, monitor), span).toStdString());
     const auto integrator = tests::integratorOf(scene);
     State s = scene.resolved->initial;
     integrator->begin(s);

@@ -10,7 +10,7 @@
 #include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
 #include "ui/base/format.hpp"
-#include "ui/panels/equation_lines.hpp"
+#include "ui/text/equation_lines.hpp"
 #include "ui/panels/scene_panel.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/main_window.hpp"

@@ -92,8 +92,7 @@ std::vector<Entry> entriesOf(const Settings& settings, const std::vector<std::st
                              const Parameters& parameters) {
     std::vector<Entry> entries;
     for (const BracketText& typed : bracketTextsOf(settings))
-        entries.push_back(
-            {typed.i, typed.j, TypedFunction(typed.text, typed.pointer, names, parameters)});
+        entries.push_back({typed.i, typed.j, TypedFunction(typed.text, typed.pointer, names, parameters)});
     return entries;
 }
 
@@ -160,9 +159,8 @@ std::vector<BracketText> bracketTextsOf(const Settings& settings) {
     for (const auto& [pair, text] : given->asObject()) {
         const auto [i, j] = pairOf(pair, names);
         const std::size_t first = std::min(i, j), second = std::max(i, j);
-        const bool isTwice = std::any_of(texts.begin(), texts.end(), [&](const BracketText& e) {
-            return e.i == first && e.j == second;
-        });
+        const bool isTwice = std::any_of(texts.begin(), texts.end(),
+                                         [&](const BracketText& e) { return e.i == first && e.j == second; });
         if (isTwice)
             throw InvalidScene("/bracket/" + pair, pairName(names, i, j) + " is given twice",
                                "one order of the pair: the other has the opposite sign");

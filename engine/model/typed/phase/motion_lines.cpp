@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/typed/motion_lines.hpp"
+#include "engine/model/typed/phase/motion_lines.hpp"
 
 #include <algorithm>
 #include <cstddef>

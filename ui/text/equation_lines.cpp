@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/equation_lines.hpp"
+#include "ui/text/equation_lines.hpp"
 
 #include <QApplication>
 #include <QClipboard>
@@ -11,7 +11,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
-#include "engine/model/typed/motion_lines.hpp"
+#include "engine/model/typed/phase/motion_lines.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/core/problem.hpp"
-#include "engine/model/typed/motion_lines.hpp"
+#include "engine/model/typed/phase/motion_lines.hpp"
 #include "engine/scene/read/json.hpp"
 #include "tests/tools/test.hpp"
 
@@ -40,19 +40,18 @@ private slots:
                  std::string("x′ = x²; p_x′ = −2 p_x x"));
     }
     /// Om_xy = d_x theta_y - d_y theta_x = 1 + 1 + x^2.
-    void oneForms() {
-        QCOMPARE(plain(massless), std::string("(x² + 2) y′ = −sin x; (x² + 2) x′ = −cos y"));
-    }
+    void oneForms() { QCOMPARE(plain(massless), std::string("(x² + 2) y′ = −sin x; (x² + 2) x′ = −cos y")); }
     void variablesWithoutAVelocity() {
         QCOMPARE(plain(R"json({"type": "phase-space", "variables": ["x", "y"], "parameters": {},
                      "one_form": {"x": "log(y)/x"}, "hamiltonian": "y - log(y) + x - 0.5*log(x)"})json"),
                  std::string("y′ / (x y) = 1 / (2 x) − 1; x′ / (x y) = −1 / y + 1"));
     }
     void brackets() {
-        QCOMPARE(plain(R"json({"type": "poisson", "variables": ["x", "y", "z"], "parameters": {"a": 1, "b": 2},
+        QCOMPARE(
+            plain(R"json({"type": "poisson", "variables": ["x", "y", "z"], "parameters": {"a": 1, "b": 2},
                      "bracket": {"x,y": "-z", "y,z": "-x", "z,x": "-y"},
                      "hamiltonian": "(a*x^2 + b*y^2 + z^2)/2"})json"),
-                 std::string("x′ = y z − b y z; y′ = a x z − x z; z′ = b x y − a x y"));
+            std::string("x′ = y z − b y z; y′ = a x z − x z; z′ = b x y − a x y"));
     }
     void texHasTheSameEquations() {
         QCOMPARE(typed::texOfMotion(modelOf(R"json({"type": "hamiltonian", "coordinates": ["theta"],

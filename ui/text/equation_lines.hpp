@@ -21,8 +21,8 @@ public:
 
     /// `lines`: rich text, one per equation.
     void setEquations(const std::vector<std::string>& lines, const std::string& tex);
-    /// Those of a typed model (typed/motion_lines.hpp), found in a background thread; what cannot be read has
-    /// none.
+    /// Those of a typed model (typed/phase/motion_lines.hpp), found in a background thread; what cannot be
+    /// read has none.
     void follow(const Settings& model);
 
 private:
