@@ -10,6 +10,7 @@
 
 #include "engine/model/parts/written_form.hpp"
 #include "engine/model/system.hpp"
+#include "engine/model/typed/typeset.hpp"
 #include "engine/scene/event_names.hpp"
 #include "engine/scene/read/json.hpp"
 #include "engine/scene/resolve.hpp"
@@ -54,7 +55,8 @@ void addTerms(const FieldInfo& info, const Value& terms, const std::string& plac
     for (const auto& [name, formula] : terms.asObject()) {
         FieldInfo row = textField(name, name, nullptr, info.description);
         row.title = name;
-        const QString shown = QString::fromStdString(name).toHtmlEscaped();
+        const QString shown =
+            QString::fromStdString(info.symbol.empty() ? name : typed::symbolOf(name)).toHtmlEscaped();
         fields.push_back({std::move(row),
                           place + "/" + name,
                           info.symbol.empty()
