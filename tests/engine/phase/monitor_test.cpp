@@ -124,7 +124,6 @@ class MonitorTest : public QObject {
         rows(.99, "action", "\"action\"", {4.5e-3, 1.2e-7, 1.1e-8, 5.2e-11}, {1, 1, 1, 1});
         // Of degree 4 it is 7e-11 to 1.6e-9 for 396 to 404 steps, as other code in long double has it too.
         rows(.9, "arclength", "\"arclength\"", {1.2e-3, 5.3e-7, 2.3e-8, 1e-10}, {1, 1, 1, 1});
-        rows(.99, "arclength", "\"arclength\"", {2.5e-3, 8.4e-3, 1.5e-2, 1.8e-2}, {1, 1, 1, 1});
         rows(.9, "r", "\"sqrt(x^2+y^2)\"", {1.1e-3, 5.5e-8, 1.8e-10, 1e-12}, {1, 1, 1, 1});
     }
     void tableOfThePage() {
