@@ -11,11 +11,22 @@
 namespace extremal {
 namespace {
 
-ProgramDerivative byPointers(const ResolvedScene& scene, std::size_t scheme, const typed::Formula& formula,
+/// Texts have no part in derivatives, also where they are such as a scene file cannot have.
+ResolvedScene withoutTexts(ResolvedScene scene) {
+    Scene& s = scene.scene;
+    for (std::string* const text : {&s.title, &s.source, &s.lesson, &s.notes}) text->clear();
+    for (std::size_t i = 0; i < s.events.size(); ++i) s.events[i].label = "event " + std::to_string(i + 1);
+    for (std::size_t i = 0; i < s.schemes.size(); ++i)
+        s.schemes[i].label = scene.schemes[i].spec.label = "scheme " + std::to_string(i + 1);
+    return scene;
+}
+
+ProgramDerivative byPointers(const ResolvedScene& given, std::size_t scheme, const typed::Formula& formula,
                              const std::vector<std::string>& pointers) {
     if (pointers.size() > mostVariedNumbers)
         throw InvalidScene("--with", "takes at most " + std::to_string(mostVariedNumbers) + " numbers, got " +
                                          std::to_string(pointers.size()));
+    const ResolvedScene scene = withoutTexts(given);
     const RunDerivative run(scene, {.pointers = pointers, .scheme = scene.schemes[scheme].spec.label});
     ProgramDerivative made;
     made.parameters = run.parameterNames();

@@ -215,9 +215,14 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
         painter.setBrush(Qt::NoBrush);
         QPen pen(shared_.colorOf(s.style), 1.1, Qt::SolidLine, Qt::FlatCap);
         if (const auto dash = shared_.theme.series(s.style).dash; !dash.isEmpty()) pen.setDashPattern(dash);
-        painter.setPen(pen);
-        painter.drawLine(QPointF(box.left() + edge, box.center().y()),
-                         QPointF(box.left() + edge + sample, box.center().y()));
+        if (hasLine(s.kind)) {
+            painter.setPen(pen);
+            painter.drawLine(QPointF(box.left() + edge, box.center().y()),
+                             QPointF(box.left() + edge + sample, box.center().y()));
+        } else {
+            painter.setPen(QPen(pen.color(), 4, Qt::SolidLine, Qt::RoundCap));
+            painter.drawPoint(QPointF(box.left() + edge + sample / 2, box.center().y()));
+        }
         painter.setFont(font);
         painter.setPen(shared_.theme.muted);
         painter.drawText(QRectF(box.left() + edge + sample + gap, box.top(), width, box.height()),

@@ -152,7 +152,7 @@ private slots:
             "floquet, "
             "local-error, loop, lyapunov, "
             "megno, mesh, modified-energy, momentum, monitor, multiplier, parameter-map, phase, "
-            "reversibility, "
+            "reversibility, ring, "
             "section, "
             "solvability, "
             "sparsity, "

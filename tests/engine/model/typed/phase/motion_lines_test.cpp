@@ -37,7 +37,7 @@ private slots:
         // Linear in p: there is no Lagrangian.
         QCOMPARE(plain(R"json({"type": "hamiltonian", "coordinates": ["x"], "parameters": {},
                      "hamiltonian": "p_x*x^2"})json"),
-                 std::string("x′ = x²; p_x′ = −2 p_x x"));
+                 std::string("x′ = x²; p_x′ = −2 x p_x"));
     }
     /// Om_xy = d_x theta_y - d_y theta_x = 1 + 1 + x^2.
     void oneForms() { QCOMPARE(plain(massless), std::string("(x² + 2) y′ = −sin x; (x² + 2) x′ = −cos y")); }
