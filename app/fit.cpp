@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
-#include <filesystem>
 
-#include "app/load.hpp"
 #include "app/study_work.hpp"
 #include "app/verbs.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/figure/fit_figure.hpp"
 #include "engine/figure/image/svg.hpp"
-#include "engine/run/files/answer_files.hpp"
-#include "engine/scene/read/json.hpp"
 #include "engine/study/fit/fit.hpp"
 #include "engine/study/fit/measured_data.hpp"
 
@@ -40,41 +36,30 @@ std::string fitText(const FitAnswer& answer) {
 }  // namespace
 
 int fitVerb(const std::string& scene, const FitOptions& given, const CommonOptions& options) {
-    const ReadScene read = loadScene(scene, options);
-    if (!reportScene(scene, read, options)) return unusable;
-    return guarded(sceneName(scene), [&] {
-        const Replacing replacing = replacingOf(scene, read, options, {given.data});
-        for (const char* file : {"scene.json", "fit.json"})
-            requireReplaceable(std::filesystem::path(given.out) / file, replacing);
-        const MeasuredData data = readMeasuredFile(given.data, *read.resolved->system, given.columns);
-        InterruptWatch watch;
-        FitAnswer answer;
-        const bool isInterrupted =
-            workAndWait([&](const std::stop_token& stop) { answer = fit(*read.resolved, data, given, stop); },
-                        [] { return 0.0; }, [] { return std::string("fitting"); }, watch, options);
-        if (isInterrupted) {
-            printProblem("", "interrupted: no minimum is known yet");
-            return static_cast<int>(interrupted);
-        }
-        const Value document = fitValue(answer);
-        if (!answer.isFound()) {
-            printProblem(sceneName(scene) + ": " + answer.scheme, answer.problem, answer.remedy);
-            return options.isJson ? print(writeJson(document), failed) : static_cast<int>(failed);
-        }
-        writeAnswer({"fit",
-                     document,
-                     writeScene(readScene(answer.scene).scene),
-                     {{"parameters.csv", csvText(numbersTable(answer))},
-                      {"residuals.csv", csvText(answer.residuals)},
-                      {"residuals.svg", svgOf(residualsFigure(answer))}}},
-                    given.out, replacing);
-        if (options.isJson) return print(writeJson(document), done);
-        if (options.isQuiet) return static_cast<int>(done);
-        return print(fitText(answer) +
-                         "\nscene.json, parameters.csv, residuals.csv, residuals.svg and fit.json in " +
-                         given.out + "\n",
-                     done);
-    });
+    return runAnswerVerb<FitAnswer>(
+        scene,
+        {.out = given.out,
+         .files = {"scene.json", "parameters.csv", "residuals.csv", "residuals.svg", "fit.json"},
+         .inputs = {given.data},
+         .doing = "fitting",
+         .unknown = "no minimum is known yet",
+         .work =
+             [&](const ResolvedScene& resolved, const std::stop_token& stop) {
+                 const MeasuredData data = readMeasuredFile(given.data, *resolved.system, given.columns);
+                 return fit(resolved, data, given, stop);
+             },
+         .document = fitValue,
+         .written =
+             [](const FitAnswer& answer, const Value& document) {
+                 return AnswerFiles{"fit",
+                                    document,
+                                    writeScene(readScene(answer.scene).scene),
+                                    {{"parameters.csv", csvText(numbersTable(answer))},
+                                     {"residuals.csv", csvText(answer.residuals)},
+                                     {"residuals.svg", svgOf(residualsFigure(answer))}}};
+             },
+         .text = fitText},
+        options);
 }
 
 }  // namespace extremal::app

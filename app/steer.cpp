@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <filesystem>
 
-#include "app/load.hpp"
 #include "app/study_work.hpp"
 #include "app/verbs.hpp"
 #include "engine/core/text/text.hpp"
-#include "engine/run/files/answer_files.hpp"
-#include "engine/scene/read/json.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/gradient/steering.hpp"
 
@@ -32,39 +28,28 @@ std::string steeringText(const SteeringAnswer& answer, const SteeringRequest& re
 }  // namespace
 
 int steerVerb(const std::string& scene, const SteerOptions& given, const CommonOptions& options) {
-    const ReadScene read = loadScene(scene, options);
-    if (!reportScene(scene, read, options)) return unusable;
-    return guarded(sceneName(scene), [&] {
-        const Replacing replacing = replacingOf(scene, read, options);
-        for (const char* file : {"scene.json", "controls.csv", "states.csv", "steer.json"})
-            requireReplaceable(std::filesystem::path(given.out) / file, replacing);
-        InterruptWatch watch;
-        SteeringAnswer answer;
-        const bool isInterrupted =
-            workAndWait([&](const std::stop_token& stop) { answer = steer(*read.resolved, given, stop); },
-                        [] { return 0.0; }, [] { return std::string("steering"); }, watch, options);
-        if (isInterrupted) {
-            printProblem("", "interrupted: no control is known yet");
-            return static_cast<int>(interrupted);
-        }
-        const Value document = steeringValue(answer);
-        if (!answer.isFound()) {
-            printProblem(sceneName(scene) + ": " + answer.scheme, answer.problem, answer.remedy);
-            return options.isJson ? print(writeJson(document), failed) : static_cast<int>(failed);
-        }
-        const ReadScene made = readScene(answer.scene);
-        printProblems("steer", made.errors);
-        writeAnswer({"steer",
+    return runAnswerVerb<SteeringAnswer>(
+        scene,
+        {.out = given.out,
+         .files = {"scene.json", "controls.csv", "states.csv", "steer.json"},
+         .inputs = {},
+         .doing = "steering",
+         .unknown = "no control is known yet",
+         .work = [&](const ResolvedScene& resolved,
+                     const std::stop_token& stop) { return steer(resolved, given, stop); },
+         .document = steeringValue,
+         .written =
+             [](const SteeringAnswer& answer, const Value& document) {
+                 const ReadScene made = readScene(answer.scene);
+                 printProblems("steer", made.errors);
+                 return AnswerFiles{
+                     "steer",
                      document,
                      made.errors.empty() ? writeScene(made.scene) : "",
-                     {{"controls.csv", csvText(answer.controls)}, {"states.csv", csvText(answer.states)}}},
-                    given.out, replacing);
-        if (options.isJson) return print(writeJson(document), done);
-        if (options.isQuiet) return static_cast<int>(done);
-        return print(steeringText(answer, given) +
-                         "\nscene.json, controls.csv, states.csv and steer.json in " + given.out + "\n",
-                     done);
-    });
+                     {{"controls.csv", csvText(answer.controls)}, {"states.csv", csvText(answer.states)}}};
+             },
+         .text = [&](const SteeringAnswer& answer) { return steeringText(answer, given); }},
+        options);
 }
 
 }  // namespace extremal::app

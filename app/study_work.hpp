@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the verbs that run studies share.
+/// What the verbs share that run studies, and those whose answer is files.
 #pragma once
 
 #include <atomic>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "app/load.hpp"
 #include "app/report.hpp"
 #include "app/watch_run.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/run/files/answer_files.hpp"
 #include "engine/run/files/export.hpp"
+#include "engine/scene/read/json.hpp"
 #include "engine/study/study_log.hpp"
 
 namespace extremal::app {
@@ -69,6 +75,51 @@ int guarded(const std::string& file, Function&& work) {
     } catch (const ExportError& e) {
         return tellUnwritable(e);
     }
+}
+
+/// A verb whose answer is files in --out: fit, gradient, steer. Answer: with isFound(), and where it is not,
+/// scheme, problem and remedy.
+template <class Answer>
+struct AnswerVerb {
+    std::string out;                  ///< the folder
+    std::vector<std::string> files;   ///< all that are written there
+    std::vector<std::string> inputs;  ///< files that are read besides the scene
+    std::string doing;                ///< "fitting"
+    std::string unknown;              ///< after an interruption: "no minimum is known yet"
+    std::function<Answer(const ResolvedScene&, const std::stop_token&)> work;
+    std::function<Value(const Answer&)> document;
+    std::function<AnswerFiles(const Answer&, const Value& document)> written;
+    std::function<std::string(const Answer&)> text;
+};
+
+/// The exit code. No work is begun whose files could not be written.
+template <class Answer>
+int runAnswerVerb(const std::string& scene, const AnswerVerb<Answer>& verb, const CommonOptions& options) {
+    const ReadScene read = loadScene(scene, options);
+    if (!reportScene(scene, read, options)) return unusable;
+    return guarded(sceneName(scene), [&] {
+        const Replacing replacing = replacingOf(scene, read, options, verb.inputs);
+        for (const std::string& file : verb.files)
+            requireReplaceable(std::filesystem::path(verb.out) / file, replacing);
+        InterruptWatch watch;
+        Answer answer;
+        const bool isInterrupted =
+            workAndWait([&](const std::stop_token& stop) { answer = verb.work(*read.resolved, stop); },
+                        [] { return 0.0; }, [&] { return verb.doing; }, watch, options);
+        if (isInterrupted) {
+            printProblem("", "interrupted: " + verb.unknown);
+            return static_cast<int>(interrupted);
+        }
+        const Value document = verb.document(answer);
+        if (!answer.isFound()) {
+            printProblem(sceneName(scene) + ": " + answer.scheme, answer.problem, answer.remedy);
+            return options.isJson ? print(writeJson(document), failed) : static_cast<int>(failed);
+        }
+        writeAnswer(verb.written(answer, document), verb.out, replacing);
+        if (options.isJson) return print(writeJson(document), done);
+        if (options.isQuiet) return static_cast<int>(done);
+        return print(verb.text(answer) + "\n" + joinNames(verb.files) + " in " + verb.out + "\n", done);
+    });
 }
 
 }  // namespace extremal::app
