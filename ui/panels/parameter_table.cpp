@@ -16,7 +16,7 @@
 #include "ui/base/theme.hpp"
 #include "ui/base/value_edit.hpp"
 #include "ui/panels/problem_text.hpp"
-#include "ui/workspace/lagrangian_edits.hpp"
+#include "ui/workspace/typed_edits.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {

@@ -6,12 +6,19 @@
 #include <algorithm>
 
 #include "engine/model/system.hpp"
-#include "ui/workspace/lagrangian_edits.hpp"
 
 namespace extremal {
 
 const std::vector<PartKind>& partKinds() {
     static const std::vector<PartKind> all{
+        {"one_form", QT_TR_NOOP("one-form"), PartNaming::byCoordinate, "", "", "y",
+         QT_TR_NOOP("θ of a variable: what its velocity is multiplied with. Variables without a line have no "
+                    "velocity in L")},
+        {"bracket", QT_TR_NOOP("bracket"), PartNaming::byPair, "", "", "1",
+         QT_TR_NOOP("{x, y} of two variables; pairs without a line commute")},
+        {"casimirs", QT_TR_NOOP("Casimir"), PartNaming::free, "C", "", "x + y",
+         QT_TR_NOOP("A function that commutes with every variable, which is checked: it is constant whatever "
+                    "H is")},
         {"constraints", QT_TR_NOOP("constraint"), PartNaming::free, "rod", "= 0", "x^2 + y^2 - l^2",
          QT_TR_NOOP("A relation of coordinates and t that holds at all times: the formula is 0")},
         {"rolling", QT_TR_NOOP("rolling"), PartNaming::free, "wheel", "= 0", "x_t - r*theta_t",
@@ -21,7 +28,7 @@ const std::vector<PartKind>& partKinds() {
         {"dissipation", QT_TR_NOOP("damping"), PartNaming::single, "", "", "c/2*x_t^2",
          QT_TR_NOOP("Rayleigh's function D: adds the force -dD/dv to each coordinate")},
         {"controls", QT_TR_NOOP("control"), PartNaming::free, "u", "", "sin(t)",
-         QT_TR_NOOP("A name for a function of time that forces may use")},
+         QT_TR_NOOP("A name for a function of time that forces and Hamiltonians may use")},
         {"walls",
          QT_TR_NOOP("wall"),
          PartNaming::free,
@@ -33,29 +40,10 @@ const std::vector<PartKind>& partKinds() {
     return all;
 }
 
-bool isOffered(const PartKind& kind) {
-    const ModelEntry* const entry = findModel("lagrangian");
+bool isOffered(const PartKind& kind, const std::string& model) {
+    const ModelEntry* const entry = findModel(model);
     return entry && std::any_of(entry->item.parameters.begin(), entry->item.parameters.end(),
                                 [&](const FieldInfo& field) { return field.key == kind.key; });
-}
-
-typed::PartTexts partTextsOf(const Value& model) {
-    typed::PartTexts parts;
-    const auto formulas = [&](const char* key) {
-        std::vector<std::pair<std::string, std::string>> all;
-        if (const Value* value = model.find(key); value && value->isObject())
-            for (const auto& [name, text] : value->asObject())
-                if (text.isString()) all.emplace_back(name, formulaOfText(text.asString()));
-        return all;
-    };
-    parts.constraints = formulas("constraints");
-    parts.rolling = formulas("rolling");
-    parts.forces = formulas("forces");
-    if (const Value* value = model.find("dissipation"); value && value->isString())
-        parts.dissipation = formulaOfText(value->asString());
-    if (const Value* value = model.find("controls"); value && value->isObject())
-        for (const auto& [name, text] : value->asObject()) parts.controls.push_back(name);
-    return parts;
 }
 
 }  // namespace extremal

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What can stand beside a typed Lagrangian, as data: one entry per key of the model. A kind is offered as
-/// soon as the model takes its key.
+/// What can stand beside a typed formula, as data: one entry per key of a model. A kind is offered where the
+/// model takes its key.
 #pragma once
 
 #include <QString>
@@ -8,13 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/value.hpp"
-#include "engine/model/typed/part_equations.hpp"
-
 namespace extremal {
 
-/// How the lines of a kind are named: freely, by a coordinate each, or not at all as there is one.
-enum class PartNaming { free, byCoordinate, single };
+/// How the lines of a kind are named: freely, by a coordinate or variable each, by a pair of variables "x,y",
+/// or not at all as there is one.
+enum class PartNaming { free, byCoordinate, byPair, single };
 
 struct PartKind {
     const char* key;    ///< of the model: "constraints"
@@ -33,10 +31,7 @@ struct PartKind {
 };
 
 const std::vector<PartKind>& partKinds();
-/// Whether the model in this program has the key of the kind.
-bool isOffered(const PartKind& kind);
-
-/// What equations of motion are written with.
-typed::PartTexts partTextsOf(const Value& model);
+/// Whether a type of model has the key of the kind.
+bool isOffered(const PartKind& kind, const std::string& model);
 
 }  // namespace extremal

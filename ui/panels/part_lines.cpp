@@ -17,7 +17,8 @@
 #include "ui/base/theme.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/problem_text.hpp"
-#include "ui/workspace/lagrangian_edits.hpp"
+#include "ui/workspace/typed_edits.hpp"
+#include "ui/workspace/typed_kind.hpp"
 #include "ui/workspace/typed_names.hpp"
 #include "ui/workspace/workspace.hpp"
 
@@ -27,6 +28,11 @@ namespace {
 constexpr int lineTypingPauseMs = 250;
 
 QString titleOf(const PartKind& kind) { return QCoreApplication::translate("extremal", kind.title); }
+
+/// By names of the model's: there is a line for each at most.
+bool isNamedByModel(const PartKind& kind) {
+    return kind.naming == PartNaming::byCoordinate || kind.naming == PartNaming::byPair;
+}
 
 std::string keyPlace(const PartKind& kind) { return std::string("/model/") + kind.key; }
 
@@ -130,9 +136,8 @@ QWidget* PartLines::addButton() const { return add_; }
 void PartLines::makeMenu() {
     add_ = new QToolButton;
     add_->setObjectName("addPart");
-    add_->setText(tr("+ constraint, force ..."));
-    add_->setAccessibleName(tr("Add a constraint, a force or damping"));
-    add_->setToolTip(tr("Adds a line for what acts beside the Lagrangian"));
+    add_->setAccessibleName(tr("Add a constraint, a force, a bracket or what else the model takes"));
+    add_->setToolTip(tr("Adds a line for what stands beside the formula"));
     add_->setPopupMode(QToolButton::InstantPopup);
     auto* menu = new QMenu(add_);
     menu->setToolTipsVisible(true);
@@ -140,20 +145,20 @@ void PartLines::makeMenu() {
     connect(menu, &QMenu::aboutToShow, this, [this, menu] {
         menu->clear();
         for (const PartKind& kind : partKinds()) {
-            if (!isOffered(kind)) continue;
+            if (!isOffered(kind, workspace_.scene().model.type)) continue;
             const std::string name = freeNameFor(kind);
             QAction* const action =
-                menu->addAction(kind.naming == PartNaming::byCoordinate && !name.empty()
+                menu->addAction(isNamedByModel(kind) && !name.empty()
                                     ? tr("%1 on %2").arg(titleOf(kind), QString::fromStdString(name))
                                     : titleOf(kind),
                                 this, [this, &kind, name] { add(kind, name); });
             action->setObjectName(QStringLiteral("add.") + kind.key);
             action->setToolTip(QCoreApplication::translate("extremal", kind.tip));
-            const bool isFull = kind.naming != PartNaming::free &&
-                                (kind.naming == PartNaming::byCoordinate
-                                     ? name.empty()
-                                     : std::any_of(lines_.begin(), lines_.end(),
-                                                   [&](const auto& l) { return l->kind == &kind; }));
+            const bool isFull =
+                kind.naming != PartNaming::free &&
+                (isNamedByModel(kind) ? name.empty()
+                                      : std::any_of(lines_.begin(), lines_.end(),
+                                                    [&](const auto& l) { return l->kind == &kind; }));
             action->setEnabled(!isFull);
         }
     });
@@ -166,10 +171,16 @@ std::string PartLines::freeNameFor(const PartKind& kind) const {
                            [&](const auto& l) { return l->kind == &kind && l->name == name; });
     };
     if (kind.naming == PartNaming::single) return {};
+    const std::vector<std::string> names = typedNamesOf(workspace_.document());
     if (kind.naming == PartNaming::byCoordinate) {
-        if (const Value* names = valueAt(workspace_.document(), "/model/coordinates"))
-            for (const Value& name : names->asArray())
-                if (!isTaken(name.asString())) return name.asString();
+        const auto free = std::find_if_not(names.begin(), names.end(), isTaken);
+        return free != names.end() ? *free : std::string();
+    }
+    if (kind.naming == PartNaming::byPair) {
+        for (std::size_t i = 0; i < names.size(); ++i)
+            for (std::size_t j = i + 1; j < names.size(); ++j)
+                if (!isTaken(names[i] + "," + names[j]) && !isTaken(names[j] + "," + names[i]))
+                    return names[i] + "," + names[j];
         return {};
     }
     if (!isTaken(kind.firstName)) return kind.firstName;
@@ -217,8 +228,9 @@ PartLines::Line& PartLines::makeLine(const PartKind& kind, const std::string& na
         line.nameEdit = new QLineEdit(QString::fromStdString(name));
         line.nameEdit->setObjectName("partName." + id);
         line.nameEdit->setAccessibleName(tr("Name of %1").arg(spoken));
-        line.nameEdit->setToolTip(kind.naming == PartNaming::byCoordinate
-                                      ? tr("The coordinate on which the force acts")
+        line.nameEdit->setToolTip(kind.naming == PartNaming::byCoordinate ? tr("The coordinate of this line")
+                                  : kind.naming == PartNaming::byPair
+                                      ? tr("The two variables, with a comma between")
                                       : tr("A name of your own: columns and plots have it"));
         line.nameEdit->setProperty("room", "value");
         head->addWidget(line.nameEdit);
@@ -398,9 +410,15 @@ void PartLines::remove(Line& line) {
 }
 
 void PartLines::refresh() {
+    const std::string& model = workspace_.scene().model.type;
+    QStringList titles;
+    for (const PartKind& kind : partKinds())
+        if (isOffered(kind, model) && titles.size() < 2) titles << titleOf(kind);
+    add_->setText(QStringLiteral("+ ") + titles.join(", ") +
+                  (titles.size() > 1 ? QStringLiteral(" ...") : QString()));
     std::vector<std::pair<const PartKind*, std::string>> wanted;
     for (const PartKind& kind : partKinds()) {
-        if (!isOffered(kind)) continue;
+        if (!isOffered(kind, model)) continue;
         for (std::string& name : namesOf(workspace_, kind)) wanted.emplace_back(&kind, std::move(name));
         for (const auto& line : lines_) {
             const auto here = std::make_pair(line->kind, line->name);

@@ -16,12 +16,12 @@
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/write/format.hpp"
 #include "ui/base/combo_box.hpp"
-#include "ui/text/equation_lines.hpp"
 #include "ui/panels/form.hpp"
-#include "ui/panels/lagrangian_editor.hpp"
+#include "ui/panels/typed_model_editor.hpp"
 #include "ui/panels/scene_fields.hpp"
 #include "ui/panels/symmetry_line.hpp"
 #include "ui/workspace/scheme_edits.hpp"
+#include "ui/workspace/typed_kind.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
@@ -33,8 +33,8 @@ bool hasOwnNames(const ModelEntry& entry) {
     return std::any_of(entry.item.parameters.begin(), entry.item.parameters.end(),
                        [](const FieldInfo& field) { return field.type == FieldType::names; });
 }
-/// It is given by a Lagrangian in coordinates, which has a separate editor.
-bool isTyped(const ModelEntry& entry) { return entry.item.id == "lagrangian"; }
+/// It is given by a formula in names of its own, which has a separate editor.
+bool isTyped(const ModelEntry& entry) { return typedKind(entry.item.id) != nullptr; }
 
 bool isPlainText(const Value& value) { return value.isNumber() || value.isString() || value.isBool(); }
 
@@ -212,18 +212,14 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     model_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     connect(model_, &QComboBox::activated, this, &ScenePanel::changeModel);
     parameters_ = new Form(workspace);
-    lagrangian_ = new LagrangianEditor(workspace);
-    lagrangian_->hide();
-    equations_ = new EquationLines(
-        tr("Hamilton's equations; of a one-form dθ on the velocities, of a bracket the velocities"));
-    equations_->setObjectName("motion");
+    typed_ = new TypedModelEditor(workspace);
+    typed_->hide();
     initial_ = new Form(workspace);
     time_ = new Form(workspace);
     reference_ = new Form(workspace);
     body()->addWidget(model_);
     body()->addWidget(parameters_);
-    body()->addWidget(lagrangian_);
-    body()->addWidget(equations_);
+    body()->addWidget(typed_);
     body()->addWidget(new SymmetryLine(workspace));
     initialTitle_ = sectionLabel(tr("Initial data"));
     timeTitle_ = sectionLabel(tr("Time"));
@@ -279,12 +275,12 @@ void ScenePanel::rebuild() {
     std::string keys = std::to_string(static_cast<int>(scene.initial.second));
     for (const auto& [key, value] : scene.initial.given.keys) keys += ' ' + key;
     if (valueAt(workspace_.document(), "/initial/q")) keys += " q";
-    if (const Value* names = scene.model.find("coordinates")) keys += writeCompactJson(*names);
+    for (const char* key : {"coordinates", "variables"})
+        if (const Value* names = scene.model.find(key)) keys += writeCompactJson(*names);
     const ModelEntry* entry = findModel(scene.model.type);
     if (!entry) return;
     keys += shapeOf(workspace_, entry->item.parameters, "/model/") +
             shapeOf(workspace_, entry->initial, "/initial/");
-    equations_->follow(isTyped(*entry) ? Settings{} : scene.model);  // its editor has them
     if (scene.model.type == shownModel_ && keys == shownInitial_) return;
     shownModel_ = scene.model.type;
     shownInitial_ = keys;
@@ -293,8 +289,8 @@ void ScenePanel::rebuild() {
     const System& system = *workspace_.resolved()->system;
     parameters_->setFields(isTyped(*entry) ? std::vector<FormField>{} : parameterFields(workspace_, *entry));
     parameters_->setVisible(!isTyped(*entry));
-    lagrangian_->setVisible(isTyped(*entry));
-    lagrangian_->refresh();
+    typed_->setVisible(isTyped(*entry));
+    typed_->refresh();
     for (QWidget* part : std::initializer_list<QWidget*>{initialTitle_, initial_, timeTitle_, time_})
         part->setVisible(system.isMotion());  // solved at once, from nothing but its boundary values
     initial_->setFields(initialFields(workspace_, system));

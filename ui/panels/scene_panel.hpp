@@ -3,16 +3,14 @@
 /// events, as forms from descriptors.
 #pragma once
 
-#include "engine/core/settings.hpp"
 #include "ui/base/card.hpp"
 
 class QComboBox;
 
 namespace extremal {
 
-class EquationLines;
 class Form;
-class LagrangianEditor;
+class TypedModelEditor;
 class Workspace;
 
 class ScenePanel : public Card {
@@ -33,8 +31,7 @@ private:
     QComboBox* model_;
     Form *parameters_, *initial_, *time_, *reference_, *events_;
     QLabel *initialTitle_, *timeTitle_, *eventsTitle_;
-    LagrangianEditor* lagrangian_;
-    EquationLines* equations_;  ///< of models that are typed, but not as a Lagrangian
+    TypedModelEditor* typed_;
     std::string shownModel_;
     std::string shownInitial_;  ///< which keys of the initial data are shown
     std::string shownReference_;

@@ -4,27 +4,20 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QLabel>
-#include <QPointer>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <utility>
 
-#include "engine/core/problem.hpp"
-#include "engine/core/text/expression.hpp"
-#include "engine/model/typed/phase/motion_lines.hpp"
-#include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
 
 namespace extremal {
 
-EquationLines::EquationLines(const QString& tip, QWidget* parent) : QWidget(parent) {
+EquationLines::EquationLines(QWidget* parent) : QWidget(parent) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(5);
     lines_ = makeLabel({}, "body");
     lines_->setObjectName("equations");
     lines_->setAccessibleName(tr("Equations of motion"));
-    lines_->setToolTip(tip);
     lines_->setWordWrap(true);
     lines_->setTextFormat(Qt::RichText);
     lines_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -50,23 +43,6 @@ void EquationLines::setEquations(const std::vector<std::string>& lines, const st
     setVisible(!lines.empty());
 }
 
-void EquationLines::follow(const Settings& model) {
-    if (model == followed_) return;
-    followed_ = model;
-    if (!typed::hasMotionLines(model)) return hide();
-    runInBackground([self = QPointer(this), model] {
-        std::vector<std::string> lines;
-        std::string tex;
-        try {
-            lines = typed::motionLines(model, typed::TextForm::rich);
-            tex = typed::texOfMotion(model);
-        } catch (const InvalidScene&) {
-        } catch (const ExpressionError&) {
-        }
-        sendToWindow([self, model, lines = std::move(lines), tex = std::move(tex)] {
-            if (self && self->followed_ == model) self->setEquations(lines, tex);
-        });
-    });
-}
+void EquationLines::setTip(const QString& tip) { lines_->setToolTip(tip); }
 
 }  // namespace extremal

@@ -13,7 +13,8 @@
 #include "engine/core/text/text.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/write/codec.hpp"
-#include "ui/workspace/lagrangian_edits.hpp"
+#include "ui/workspace/typed_edits.hpp"
+#include "ui/workspace/typed_kind.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
@@ -23,14 +24,6 @@ using Names = std::vector<std::string>;
 
 bool has(const Names& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-Names namesAt(const Value& document) {
-    Names names;
-    if (const Value* all = valueAt(document, "/model/coordinates"); all && all->isArray())
-        for (const Value& name : all->asArray())
-            if (name.isString()) names.push_back(name.asString());
-    return names;
 }
 
 Value::Object parametersAt(const Value& document) {
@@ -57,9 +50,12 @@ bool isSlip(const std::string& name, const Names& known) {
     return !near.empty() && stemOf(near) != stem;
 }
 
-/// The names in a formula, and the coordinates whose velocities it has.
+/// The names in a formula, and the coordinates whose velocities or momenta it has.
 struct FormulaNames {
-    Names all, velocities;
+    explicit FormulaNames(const TypedKind& its) : kind(its) {}
+
+    const TypedKind& kind;
+    Names all, rates;
     bool isRead = false;
 
     void read(const std::string& text) {
@@ -71,13 +67,13 @@ struct FormulaNames {
         }
         isRead = true;
         for (const Expression::Node& node : expression.nodes) {
-            if (node.kind == Operator::call && node.name == "dot" && node.left >= 0)
-                add(velocities, expression.nodes[static_cast<std::size_t>(node.left)].name);
+            if (node.kind == Operator::call && node.name == "dot" && node.left >= 0 && *kind.behind)
+                add(rates, expression.nodes[static_cast<std::size_t>(node.left)].name);
             if (node.kind != Operator::name) continue;
-            const bool isVelocity = node.name.size() > 2 && node.name.ends_with("_t");
-            const std::string base = isVelocity ? node.name.substr(0, node.name.size() - 2) : node.name;
-            if (isVelocity) add(velocities, base);
-            add(all, base);
+            std::string base = kind.nameOfRate(node.name);
+            if (!nameProblem(base).empty() || isFunctionName(base)) base.clear();  // p_0 is a constant
+            add(rates, base);
+            add(all, base.empty() ? node.name : base);
         }
     }
 
@@ -143,7 +139,8 @@ Value initialOf(const Value& document, const Names& before, const Names& after,
     const bool isOther =
         std::none_of(after.begin(), after.end(), [&](const std::string& name) { return has(before, name); });
     if (isOther) std::erase_if(initial.asObject(), [](const Value::Member& m) { return m.first == "p"; });
-    const char* const second = initial.find("p") ? "p" : "v";
+    const TypedKind* const kind = typedKindOf(document);
+    const char* const second = initial.find("p") || *kind->before ? "p" : "v";
     const auto moved = [&](const char* key, bool isPlace) {
         const Value* const old = initial.find(key);
         Value::Array numbers;
@@ -174,7 +171,7 @@ void addCoordinates(const Value& document, const Names& before, const Names& aft
                     std::vector<Edit>& edits) {
     Value::Array list;
     for (const std::string& name : after) list.emplace_back(name);
-    edits.insert(edits.begin(), {"/model/coordinates", Value(std::move(list))});
+    edits.insert(edits.begin(), {typedKindOf(document)->namesPlace(), Value(std::move(list))});
     if (after != before) edits.push_back({"/views", std::nullopt});
     const std::size_t last = edits.size();
     edits.push_back({"/initial", initialOf(document, before, after, remembered, 0)});
@@ -210,32 +207,34 @@ void TypedNames::forget(const Value& document) {
     slips_.clear();
     note_.clear();
     hasRefusedNames_ = false;
-    const ModelEntry* const entry = findModel("lagrangian");
-    const Value* const text = valueAt(document, "/model/lagrangian");
+    const TypedKind* const kind = typedKindOf(document);
+    const Value* const text = kind ? valueAt(document, kind->formulaPlace()) : nullptr;
+    const ModelEntry* const entry = kind ? findModel(kind->model) : nullptr;
     if (!entry || !text) return;
     const bool isExample =
         std::any_of(entry->item.parameters.begin(), entry->item.parameters.end(),
-                    [&](const FieldInfo& f) { return f.key == "lagrangian" && f.firstValue() == *text; });
+                    [&](const FieldInfo& f) { return f.key == kind->formula && f.firstValue() == *text; });
     if (!isExample) return;
-    for (const std::string& name : namesAt(document)) made_.insert(name);
+    for (const std::string& name : typedNamesOf(document)) made_.insert(name);
     for (const auto& [name, value] : parametersAt(document)) made_.insert(name);
 }
 
 TypedNames::Outcome TypedNames::outcomeOf(const Value& document, const std::string& place, const Value& typed,
                                           bool triesStarts) const {
     Outcome out{{{place, typed}}, {}, {}, {}, false};
+    const TypedKind& kind = *typedKindOf(document);
     const Value next = withEdits(document, out.edits);
-    FormulaNames names;
+    FormulaNames names(kind);
     names.read(formulaIn(*valueAt(next, "/model")).text);
     if (!names.isRead) return out;
-    const Names before = namesAt(document);
+    const Names before = typedNamesOf(document);
     Value::Object parameters = parametersAt(document);
-    FormulaNames beside;
+    FormulaNames beside(kind);
     for (const PlacedFormula& part : partFormulas(next)) beside.read(part.text);
     const auto isMentioned = [&](const std::string& name) {
         return has(names.all, name) || has(beside.all, name);
     };
-    const bool isLagrangian = place == "/model/lagrangian";
+    const bool isFirst = place == kind.formulaPlace(), makesNames = isFirst && kind.hasRates();
 
     // Names that were made while typing, and that nothing uses any more.
     std::erase_if(parameters, [&](const Value::Member& m) {
@@ -243,7 +242,7 @@ TypedNames::Outcome TypedNames::outcomeOf(const Value& document, const std::stri
     });
     Names after = before;
     std::erase_if(after, [&](const std::string& name) {
-        return isLagrangian && made_.contains(name) && !isMentioned(name);
+        return makesNames && made_.contains(name) && !isMentioned(name);
     });
     const auto isParameter = [&](const std::string& name) {
         return std::any_of(parameters.begin(), parameters.end(),
@@ -256,8 +255,9 @@ TypedNames::Outcome TypedNames::outcomeOf(const Value& document, const std::stri
         return false;
     };
     const Names coordinatesKnown = after;
-    for (const std::string& name : isLagrangian ? names.velocities : Names{}) {
+    for (const std::string& name : makesNames ? names.rates : Names{}) {
         if (has(after, name) || (isParameter(name) && !made_.contains(name))) continue;
+        if (isParameter(kind.rateOf(name))) continue;  // a constant that is called p_x
         if (!isSound(name, coordinatesKnown)) continue;
         std::erase_if(parameters, [&](const Value::Member& m) { return m.first == name; });
         after.push_back(name);
@@ -268,9 +268,9 @@ TypedNames::Outcome TypedNames::outcomeOf(const Value& document, const std::stri
         std::erase_if(after, [&](const std::string& name) { return !isMentioned(name); });
     Names known = after;
     for (const auto& [name, value] : parameters) known.push_back(name);
-    Names wanted = isLagrangian ? names.all : Names{};
-    if (!isLagrangian) {
-        FormulaNames own;
+    Names wanted = isFirst ? names.all : Names{};
+    if (!isFirst) {
+        FormulaNames own(kind);
         if (typed.isString()) own.read(typed.asString());
         if (typed.isObject())
             for (const auto& [key, member] : typed.asObject())
@@ -280,7 +280,7 @@ TypedNames::Outcome TypedNames::outcomeOf(const Value& document, const std::stri
     const Value* const controls = valueAt(next, "/model/controls");
     for (const std::string& name : wanted) {
         if (name == "t" || name == "pi" || has(after, name) || isParameter(name)) continue;
-        if (has(names.velocities, name) || has(beside.velocities, name)) continue;
+        if (has(names.rates, name) || has(beside.rates, name)) continue;
         if (controls && controls->find(name)) continue;
         if (!isSound(name, known)) continue;
         const auto kept = remembered_.find(name);
@@ -293,7 +293,7 @@ TypedNames::Outcome TypedNames::outcomeOf(const Value& document, const std::stri
     out.changesNames = hasOtherCoordinates || !(parameters == parametersAt(document));
     if (out.changesNames || hasRefusedNames_)
         out.edits.insert(out.edits.begin(), {"/model/parameters", Value(parameters)});
-    if (hasOtherCoordinates || hasRefusedNames_)
+    if (kind.hasRates() && (hasOtherCoordinates || hasRefusedNames_))
         addCoordinates(document, before, after, remembered_, triesStarts && hasOtherCoordinates, out.edits);
     // Places and lengths change by mouse and slider: the start follows the constraints.
     if (place.starts_with("/model/constraints/") && !valueAt(document, "/initial/project"))
@@ -315,7 +315,7 @@ bool TypedNames::edit(Workspace& workspace, const std::string& place, const Valu
     slips_ = outcome.slips;
     // What goes is remembered.
     const Value next = withEdits(document, outcome.edits);
-    const Names before = namesAt(document), after = namesAt(next);
+    const Names before = typedNamesOf(document), after = typedNamesOf(next);
     const Value* const places = valueAt(document, "/initial/q");
     for (std::size_t i = 0; i < before.size(); ++i)
         if (!has(after, before[i]) && places && places->isArray() && i < places->asArray().size())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What a formula that is typed means for the names of its scene: an unknown velocity x_t makes x a
-/// coordinate, any other unknown name a parameter, both with a value to begin with.
+/// What a formula that is typed means for the names of its scene: an unknown velocity x_t, of a Hamiltonian
+/// an unknown momentum p_x, makes x a coordinate, any other unknown name a parameter, both with a value to
+/// begin with. Of a one-form or a bracket the variables are listed, so that unknown names are parameters.
 ///
 ///     TypedNames names;
 ///     names.forget(document);                              // another scene

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/workspace/lagrangian_edits.hpp"
+#include "ui/workspace/typed_edits.hpp"
 
 #include <algorithm>
 #include <optional>
 
 #include "engine/core/text/expression.hpp"
 #include "ui/workspace/tex_formula.hpp"
+#include "ui/workspace/typed_kind.hpp"
 
 namespace extremal {
 
 namespace {
 
-std::string lagrangianOf(const Value& document) {
-    const Value* lagrangian = valueAt(document, "/model/lagrangian");
-    return lagrangian ? lagrangianText(*lagrangian) : std::string();
+/// Of a document whose formula is typed.
+std::string formulaTextOf(const Value& document) {
+    const TypedKind* const kind = typedKindOf(document);
+    const Value* const typed = kind ? valueAt(document, kind->formulaPlace()) : nullptr;
+    return typed ? formulaText(*typed) : std::string();
 }
 
 /// Of "slow:" at the start of a line, with the colon; 0: there is none.
@@ -28,33 +31,27 @@ std::size_t labelLength(const std::string& line) {
                : 0;
 }
 
-std::vector<std::string> coordinatesOf(const Value& document) {
-    std::vector<std::string> names;
-    if (const Value* coordinates = valueAt(document, "/model/coordinates");
-        coordinates && coordinates->isArray())
-        for (const Value& name : coordinates->asArray())
-            if (name.isString()) names.push_back(name.asString());
-    return names;
-}
-
 Value::Object parametersOf(const Value& document) {
     const Value* parameters = valueAt(document, "/model/parameters");
     return parameters && parameters->isObject() ? parameters->asObject() : Value::Object{};
 }
 
-bool isTaken(const Value& document, const std::string& name) {
-    const auto coordinates = coordinatesOf(document);
+bool isTaken(const Value& document, const std::string& name, const std::vector<std::string>& others) {
+    std::vector<std::string> names = typedNamesOf(document);
+    names.insert(names.end(), others.begin(), others.end());
     const auto parameters = parametersOf(document);
-    return std::find(coordinates.begin(), coordinates.end(), name) != coordinates.end() ||
+    return std::find(names.begin(), names.end(), name) != names.end() ||
            std::any_of(parameters.begin(), parameters.end(),
                        [&](const Value::Member& m) { return m.first == name; });
 }
 
-std::string freeName(const Value& document, const std::vector<std::string>& wanted) {
+std::string freeName(const Value& document, const std::vector<std::string>& wanted,
+                     const std::vector<std::string>& others = {}) {
     for (const std::string& name : wanted)
-        if (!isTaken(document, name)) return name;
+        if (!isTaken(document, name, others)) return name;
     for (int i = 1;; ++i)
-        if (const std::string name = wanted.back() + std::to_string(i); !isTaken(document, name)) return name;
+        if (const std::string name = wanted.back() + std::to_string(i); !isTaken(document, name, others))
+            return name;
 }
 
 /// Every text below a value in which the name occurs, with the name replaced.
@@ -83,7 +80,7 @@ Value initialFor(const Value& document, const std::vector<std::string>& old,
                  const std::vector<std::string>& source) {
     const Value* initial = valueAt(document, "/initial");
     Value result = initial ? *initial : Value(Value::Object{});
-    for (const char* key : {"q", "p", "v"}) {
+    for (const char* key : {"q", "p", "v", "x"}) {
         Value* numbers = result.find(key);
         if (!numbers || !numbers->isArray()) continue;
         Value::Array moved;
@@ -116,9 +113,10 @@ std::string formulaOfText(const std::string& text) {
 std::vector<PlacedFormula> partFormulas(const Value& document) {
     std::vector<PlacedFormula> all;
     const Value* model = valueAt(document, "/model");
-    if (!model || !model->isObject()) return all;
+    const TypedKind* const kind = typedKindOf(document);
+    if (!kind) return all;
     for (const auto& [key, value] : model->asObject())
-        if (key != "type" && key != "coordinates" && key != "parameters" && key != "lagrangian")
+        if (key != "type" && key != "parameters" && key != kind->names && key != kind->formula)
             addTexts(value, "/model/" + key, all);
     return all;
 }
@@ -126,17 +124,21 @@ std::vector<PlacedFormula> partFormulas(const Value& document) {
 bool isInFormulas(const Value& document, const std::string& name) {
     const auto has = [&](const std::string& text) { return withNameReplaced(text, name, "") != text; };
     const std::vector<PlacedFormula> parts = partFormulas(document);
-    return has(lagrangianOf(document)) ||
+    return has(formulaTextOf(document)) ||
            std::any_of(parts.begin(), parts.end(), [&](const PlacedFormula& p) { return has(p.text); });
 }
 
 typed::Formula formulaIn(const Value& model) {
     Value document(Value::Object{{"model", model}});
     typed::Formula formula;
-    formula.coordinates = coordinatesOf(document);
+    formula.coordinates = typedNamesOf(document);
+    // Momenta are no rates of a typed formula, but names beside the coordinates (typed_hamiltonian.hpp).
+    if (const TypedKind* const kind = typedKindOf(document); kind && *kind->before)
+        for (std::size_t i = 0, d = formula.coordinates.size(); i < d; ++i)
+            formula.coordinates.push_back(kind->rateOf(formula.coordinates[i]));
     for (const auto& [name, value] : parametersOf(document))
         formula.parameters.emplace_back(name, value.isNumber() ? value.asNumber() : 1);
-    formula.text = lagrangianOf(document);
+    formula.text = formulaTextOf(document);
     // Labels of terms give way to blanks, and to a sign between terms, so that places stay what they are.
     bool isFirst = true;
     for (std::size_t start = 0; start < formula.text.size();) {
@@ -151,17 +153,17 @@ typed::Formula formulaIn(const Value& model) {
     return formula;
 }
 
-std::string lagrangianText(const Value& lagrangian) {
-    if (lagrangian.isString()) return lagrangian.asString();
+std::string formulaText(const Value& typed) {
+    if (typed.isString()) return typed.asString();
     std::string text;
-    if (lagrangian.isObject())
-        for (const auto& [name, term] : lagrangian.asObject())
+    if (typed.isObject())
+        for (const auto& [name, term] : typed.asObject())
             text += (text.empty() ? "" : "\n") + name + ": " +
                     (term.isString() ? term.asString() : std::string());
     return text;
 }
 
-Value lagrangianFrom(const std::string& text) {
+Value formulaFrom(const std::string& text) {
     Value terms{Value::Object{}};
     std::string name;
     for (std::size_t start = 0; start < text.size();) {
@@ -191,7 +193,9 @@ std::vector<Edit> editsForParameterName(const Value& document, const std::string
         if (name == from) name = to;
     }
     edits.push_back({"/model/parameters", Value(std::move(parameters))});
-    for (const char* place : {"/model/lagrangian", "/initial", "/time", "/output"})
+    const TypedKind* const kind = typedKindOf(document);
+    for (const std::string& place : {kind ? kind->formulaPlace() : std::string("/model"),
+                                     std::string("/initial"), std::string("/time"), std::string("/output")})
         if (const Value* value = valueAt(document, place)) renameBelow(*value, place, from, to, edits);
     for (const PlacedFormula& part : partFormulas(document))
         renameBelow(part.text, part.pointer, from, to, edits);
@@ -233,42 +237,48 @@ std::optional<std::size_t> renamedCoordinate(const std::vector<std::string>& old
 
 std::string formulaFor(const Value& document, const std::vector<std::string>& names,
                        const std::string& text) {
-    const std::vector<std::string> old = coordinatesOf(document);
+    const std::vector<std::string> old = typedNamesOf(document);
     const auto changed = renamedCoordinate(old, names);
     if (!changed) return text;
     const std::string &from = old[*changed], &to = names[*changed];
-    return withNameReplaced(withNameReplaced(text, from, to), from + "_t", to + "_t");
+    const TypedKind& kind = *typedKindOf(document);
+    const std::string renamed = withNameReplaced(text, from, to);
+    return kind.hasRates() ? withNameReplaced(renamed, kind.rateOf(from), kind.rateOf(to)) : renamed;
 }
 
 namespace {
 
-/// The formulas beside the Lagrangian by the new name of a coordinate, and the force on it.
+/// The formulas beside the typed one by the new name of a coordinate, and what is there for it by name.
 void addRenamedParts(const Value& document, const std::vector<std::string>& names, std::vector<Edit>& edits) {
-    const std::vector<std::string> old = coordinatesOf(document);
+    const std::vector<std::string> old = typedNamesOf(document);
     const auto changed = renamedCoordinate(old, names);
     if (!changed) return;
     for (const PlacedFormula& part : partFormulas(document))
         if (const std::string text = formulaFor(document, names, part.text); text != part.text)
             edits.push_back({part.pointer, text});
-    const Value* const forces = valueAt(document, "/model/forces");
-    if (!forces || !forces->isObject() || !forces->find(old[*changed])) return;
-    Value::Object renamed;
-    for (const auto& [name, text] : forces->asObject())
-        renamed.emplace_back(name == old[*changed] ? names[*changed] : name,
-                             text.isString() ? Value(formulaFor(document, names, text.asString())) : text);
-    edits.push_back({"/model/forces", Value(std::move(renamed))});
+    for (const char* place : {"/model/forces", "/model/one_form", "/model/bracket"}) {
+        const Value* const byName = valueAt(document, place);
+        if (!byName || !byName->isObject()) continue;
+        Value::Object renamed;
+        for (const auto& [name, text] : byName->asObject())
+            renamed.emplace_back(
+                withNameReplaced(name, old[*changed], names[*changed]),
+                text.isString() ? Value(formulaFor(document, names, text.asString())) : text);
+        if (Value next(std::move(renamed)); !(next == *byName)) edits.push_back({place, std::move(next)});
+    }
 }
 
 }  // namespace
 
 std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<std::string>& names) {
-    const std::vector<std::string> old = coordinatesOf(document);
+    const TypedKind& kind = *typedKindOf(document);
+    const std::vector<std::string> old = typedNamesOf(document);
     std::vector<std::string> source = names;  // under which name the initial data of each are found
-    std::vector<Edit> edits{{"/model/coordinates", namesValue(names)}};
+    std::vector<Edit> edits{{kind.namesPlace(), namesValue(names)}};
     if (renamedCoordinate(old, names)) {
         source = old;
         edits.push_back(
-            {"/model/lagrangian", lagrangianFrom(formulaFor(document, names, lagrangianOf(document)))});
+            {kind.formulaPlace(), formulaFrom(formulaFor(document, names, formulaTextOf(document)))});
         addRenamedParts(document, names, edits);
     }
     edits.push_back({"/initial", initialFor(document, old, source)});
@@ -278,12 +288,26 @@ std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<s
     return edits;
 }
 
-std::vector<Edit> editsForNewCoordinate(const Value& document) {
-    std::vector<std::string> names = coordinatesOf(document);
-    names.push_back(freeName(document, {"x", "y", "z", "q"}));
+std::vector<Edit> editsForNewCoordinates(const Value& document) {
+    const TypedKind& kind = *typedKindOf(document);
+    std::vector<std::string> names = typedNamesOf(document);
+    std::string added[2];
+    for (int i = 0; i < kind.newNames; ++i) {
+        added[i] = freeName(document, {"x", "y", "z", "q"}, names);
+        names.push_back(added[i]);
+    }
+    const auto written = [&](const char* text) {
+        return QString::fromUtf8(text)
+            .replace("%1", QString::fromStdString(added[0]))
+            .replace("%2", QString::fromStdString(added[1]))
+            .toStdString();
+    };
     std::vector<Edit> edits = editsForCoordinates(document, names);
     edits.push_back(
-        {"/model/lagrangian", lagrangianFrom(lagrangianOf(document) + " + " + names.back() + "_t^2/2")});
+        {kind.formulaPlace(), formulaFrom(formulaTextOf(document) + " + " + written(kind.newTerm))});
+    if (kind.newPart)
+        edits.push_back({std::string("/model/") + kind.newPart + "/" + written(kind.newPartName),
+                         written(kind.newPartFormula)});
     return edits;
 }
 

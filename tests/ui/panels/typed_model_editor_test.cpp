@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The editor of a typed Lagrangian, driven as a user does, in the whole window.
+/// The editor of typed models, driven as a user does, in the whole window.
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -15,14 +15,16 @@
 #include "tests/ui/enter.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/panels/formula_edit.hpp"
+#include "ui/panels/typed_model_editor.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/main_window.hpp"
-#include "ui/workspace/lagrangian_edits.hpp"
+#include "ui/workspace/typed_edits.hpp"
+#include "ui/workspace/typed_kind.hpp"
 #include "ui/workspace/workspace.hpp"
 
-namespace extremal::lagrangian_editor_test {
+namespace extremal::typed_model_editor_test {
 
-class LagrangianEditorTest : public QObject {
+class TypedModelEditorTest : public QObject {
     Q_OBJECT
 
     struct Window : MainWindow {
@@ -38,18 +40,25 @@ class LagrangianEditorTest : public QObject {
         T* part(const QString& name) {
             return findChild<T*>(name);
         }
-        FormulaEdit* formula() { return part<FormulaEdit>("field.lagrangian"); }
-        QString problem() {
-            auto* label = part<QLabel>("problem.lagrangian");
-            return label->isVisible() ? label->text() : QString();
+        FormulaEdit* formula() {
+            return findChild<TypedModelEditor*>()->findChild<FormulaEdit*>({}, Qt::FindDirectChildrenOnly);
         }
-        QString inScene(const char* pointer = "/model/lagrangian") {
-            const Value* value = valueAt(workspace().document(), pointer);
+        QString problem() {
+            for (const char* name : {"problem.lagrangian", "problem.hamiltonian"})
+                if (auto* label = part<QLabel>(name); label && label->isVisible()) return label->text();
+            return {};
+        }
+        QString inScene(const char* pointer = nullptr) {
+            const TypedKind* const kind = typedKindOf(workspace().document());
+            if (!pointer && !kind) return {};
+            const Value* value =
+                valueAt(workspace().document(), pointer ? std::string(pointer) : kind->formulaPlace());
             return value && value->isString() ? QString::fromStdString(value->asString()) : QString();
         }
         std::size_t coordinates() {
             return valueAt(workspace().document(), "/model/coordinates")->asArray().size();
         }
+        std::size_t names() { return typedNamesOf(workspace().document()).size(); }
         void type(const QString& text) {
             formula()->setFocus();
             formula()->selectAll();
@@ -267,18 +276,107 @@ private slots:
         window.formula()->setPlainText(kinetic + " - x^2");  // stops it
         QTRY_COMPARE(window.inScene(), kinetic + " - x^2");
     }
+    void aNewTypedModelIsSound_data() {
+        QTest::addColumn<QString>("type");
+        for (const char* type : {"lagrangian", "hamiltonian", "phase-space", "poisson"})
+            QTest::newRow(type) << type;
+    }
     void aNewTypedModelIsSound() {
+        QFETCH(QString, type);
         Window window("preset:kepler");
         auto* model = window.part<QComboBox>("model");
-        model->setCurrentIndex(model->findData("lagrangian"));
+        model->setCurrentIndex(model->findData(type));
         emit model->activated(model->currentIndex());
-        QCOMPARE(window.inScene("/model/type"), QString("lagrangian"));
+        QCOMPARE(window.inScene("/model/type"), type);
         QTRY_VERIFY(window.formula()->isVisible());
         QTRY_VERIFY(!window.part<QLabel>("equations")->text().isEmpty());
+        QVERIFY(window.problem().isEmpty());
+        // One more coordinate, or two more variables, keep it sound.
+        const std::size_t before = window.names();
+        QTest::mouseClick(window.part<QToolButton>("addCoordinate"), Qt::LeftButton);
+        QCOMPARE(window.names(), before + (type == "lagrangian" || type == "hamiltonian" ? 1 : 2));
+        QVERIFY(window.problem().isEmpty());
+        window.workspace().undo();  // one step
+        QCOMPARE(window.names(), before);
+    }
+    /// Momenta make coordinates, other names parameters; what is not sound has a caret.
+    void aHamiltonianIsTyped() {
+        Window window("preset:hamiltonian-chaos");
+        QCOMPARE(window.part<QLabel>("equations")->text().count("′ = "), 4);
+        window.type("p_q^2/2 + p_r^2/2 + kk*q^2");
+        QTRY_VERIFY(window.problem().contains("unknown name &quot;kk&quot;"));
+        QVERIFY(window.problem().startsWith('<') && window.problem().contains("H unknown name"));
+        QCOMPARE(window.formula()->extraSelections()[0].cursor.selectedText(), QString("kk"));
+        window.type("p_q^2/2 + p_u^2/2 + k*q^2/2 + omega*u^4");
+        QTRY_COMPARE(window.inScene(), QString("p_q^2/2 + p_u^2/2 + k*q^2/2 + omega*u^4"));
+        QCOMPARE(window.part<QLineEdit>("field.coordinates")->text(), QString("q, u"));
+        QVERIFY(valueAt(window.workspace().document(), "/model/parameters/omega"));
+        QVERIFY(window.part<QLabel>("note.names")->text().contains("u is a coordinate"));
+        QCOMPARE(valueAt(window.workspace().document(), "/initial/p")->asArray().size(), std::size_t(2));
+        QTRY_VERIFY(window.part<QLabel>("equations")->text().contains("<i>p</i><sub>u</sub>′ = "));
+        // A velocity is no name of a Hamiltonian, and p_0 is a constant.
+        window.type("p_q^2/2 + q_t*q");
+        QTRY_VERIFY(window.problem().contains("has the velocity q_t"));
+        window.type("(p_q - p_0)^2/2 + q^2");
+        QTRY_COMPARE(window.names(), std::size_t(1));
+        QVERIFY(valueAt(window.workspace().document(), "/model/parameters/p_0"));
+        // Its name is that of its momentum too.
+        enter(window.part<QLineEdit>("field.coordinates"), "phi");
+        QCOMPARE(window.inScene(), QString("(p_phi - p_0)^2/2 + phi^2"));
+    }
+    /// A one-form has a line for each variable that has a velocity; its unknown names are parameters.
+    void aOneFormIsTyped() {
+        Window window("preset:kepler");
+        auto* model = window.part<QComboBox>("model");
+        model->setCurrentIndex(model->findData("phase-space"));
+        emit model->activated(model->currentIndex());
+        QTRY_VERIFY(window.formula()->isVisible());
+        window.type("x^2/2 + y^2/2 + c*x^4");
+        QTRY_COMPARE(window.inScene(), QString("x^2/2 + y^2/2 + c*x^4"));
+        QCOMPARE(valueAt(window.workspace().document(), "/model/parameters/c")->asNumber(), 0.1);
+        auto* form = window.part<FormulaEdit>("partFormula.one_form.x");
+        QVERIFY(form && form->isVisible());
+        QCOMPARE(form->toPlainText(), QString("y"));
+        const auto type = [&](const QString& text) {
+            form->setFocus();
+            form->selectAll();
+            QTest::keyClicks(form, text);
+        };
+        type("y + y^3/");
+        QTRY_VERIFY(window.part<QLabel>("partProblem.one_form.x")->isVisible());
+        QVERIFY(window.part<QLabel>("partProblem.one_form.x")->text().contains('^'));
+        QCOMPARE(window.inScene("/model/one_form/x"), QString("y"));
+        type("y + b*y^3");
+        QTRY_COMPARE(window.inScene("/model/one_form/x"), QString("y + b*y^3"));
+        QVERIFY(valueAt(window.workspace().document(), "/model/parameters/b"));
+        QTRY_VERIFY(window.part<QLabel>("equations")->text().contains("<i>y</i><sup>2</sup>"));
+        enter(window.part<QLineEdit>("field.variables"), "q, y");
+        QCOMPARE(window.inScene("/model/one_form/q"), QString("y + b*y^3"));
+        QCOMPARE(window.inScene(), QString("q^2/2 + y^2/2 + c*q^4"));
+        enter(window.part<QLineEdit>("field.variables"), "q, y, z");  // an odd number
+        QTRY_VERIFY(!window.problem().isEmpty());
+        QCOMPARE(window.names(), std::size_t(2));
+        enter(window.part<QLineEdit>("field.variables"), "q, y");
+        QTRY_VERIFY(window.problem().isEmpty());
+    }
+    void aBracketIsTyped() {
+        Window window("preset:three-species");
+        QVERIFY(window.part<FormulaEdit>("partFormula.bracket.u,v"));
+        QVERIFY(window.part<FormulaEdit>("partFormula.casimirs.sum"));
+        enter(window.part<QLineEdit>("field.variables"), "u, s, w");
+        QCOMPARE(window.inScene("/model/bracket/u,s"), QString("1"));
+        QCOMPARE(window.inScene("/model/casimirs/sum"), QString("u + s + w"));
+        QCOMPARE(window.inScene(), QString("exp(u) + a*exp(s) + exp(w)"));
+        auto* casimir = window.part<FormulaEdit>("partFormula.casimirs.sum");
+        casimir->setFocus();
+        casimir->selectAll();
+        QTest::keyClicks(casimir, "u + s");
+        QTRY_VERIFY(window.part<QLabel>("partProblem.casimirs.sum")->isVisible());
+        QCOMPARE(window.inScene("/model/casimirs/sum"), QString("u + s + w"));
     }
 };
 
-EXTREMAL_TEST(LagrangianEditorTest)
-}  // namespace extremal::lagrangian_editor_test
+EXTREMAL_TEST(TypedModelEditorTest)
+}  // namespace extremal::typed_model_editor_test
 
-#include "lagrangian_editor_test.moc"
+#include "typed_model_editor_test.moc"
