@@ -15,6 +15,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/model/typed/phase/motion_lines.hpp"
+#include "engine/model/typed/written_out.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/theme.hpp"
@@ -39,6 +40,15 @@ QString translated(const char* text) { return QCoreApplication::translate("extre
 int characterAt(const std::string& text, std::size_t byte) {
     return static_cast<int>(
         QString::fromUtf8(text.data(), static_cast<qsizetype>(std::min(byte, text.size()))).size());
+}
+
+/// Whether names by index stand for few enough that their equations can be read.
+bool isShortByIndex(const Settings& model, const char* names) {
+    constexpr std::size_t most = 24;
+    if (!typed::hasIndices(model)) return false;
+    const Settings written = typed::writtenOut(model);
+    const Value* const all = written.find(names);
+    return all && all->isArray() && all->asArray().size() <= most;
 }
 
 QString joined(const Value* names) {
@@ -205,12 +215,13 @@ void TypedModelEditor::check() {
     Value whole(Value::Object{{"type", model.type}});
     for (const auto& [key, value] : model.keys) whole.set(key, value);
     whole.set(kind_->formula, formulaOfText(text_->toPlainText().toStdString()));
-    runInBackground([self = QPointer(this), formula = formulaIn(whole), model,
+    runInBackground([self = QPointer(this), formula = formulaIn(whole), model, names = kind_->names,
                      text = text_->toPlainText().toStdString(), stop = stop_.get_token()] {
         Found found{text, typed::examine(formula, stop), {}, {}};
         if (!found.examination.isComplete) return;
         try {
-            if (!found.examination.position) {
+            // A name by index, x[1..n], is one of those that it is written out to.
+            if (!found.examination.position || isShortByIndex(model, names)) {
                 found.lines = typed::motionLines(model, typed::TextForm::rich);
                 found.tex = typed::texOfMotion(model);
             }
