@@ -286,8 +286,9 @@ void TypedModelEditor::showProblem() {
                           : first.pointer.starts_with(namesPlace)
                               ? QString()
                               : workspace_.placeName(first.pointer) + ": ";
-    QString shown =
-        (where + QString::fromStdString(first.message.substr(0, first.message.find('\n')))).toHtmlEscaped();
+    QString message = QString::fromStdString(first.message.substr(0, first.message.find('\n')));
+    if (isFormula && message.startsWith("the expression ")) message.remove(0, 15);  // its letter says so
+    QString shown = (where + message).toHtmlEscaped();
     if (!first.hint.empty()) shown += " (" + QString::fromStdString(first.hint).toHtmlEscaped() + ")";
     if (isPlaced) shown = caretHtml(*text_, text, *place_, problem_->width()) + shown;
     for (const std::string& name : names_.slips())
