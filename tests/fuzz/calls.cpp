@@ -113,8 +113,8 @@ private:
         give("m.csv", bytes(makeCase(kinds().back(), seed_, random.next())));
     }
     QString scene(Random& random) {
-        if (random.oneIn(2)) return "s.json";
-        if (random.oneIn(2)) return "fuzzed.json";
+        if (random.oneIn(3)) return "s.json";
+        if (!random.oneIn(3)) return "fuzzed.json";
         if (random.oneIn(3)) return "preset:" + QString::fromStdString(std::string(random.of(presets()).id));
         return oneOf(random, "missing.json . / /dev/null m.csv preset: preset:none - --out s.json/");
     }
@@ -152,7 +152,8 @@ private:
         if (verb.isEmpty()) return {"--version", value(random)};  // else it is the window
         QStringList call = callOf(verb);
         call.replaceInStrings("s.json", scene(random));
-        if (!random.oneIn(8)) call += needsOf(verb);
+        if (!random.oneIn(16)) call += needsOf(verb);
+        if (random.oneIn(3)) return call;  // what is wrong is in the scene, if anything
         for (std::size_t k = random.below(4); k > 0; --k) {
             const auto& options = random.oneIn(10) ? random.of(table).options : row.options;
             if (options.empty()) continue;

@@ -83,6 +83,16 @@ private:
     }
 };
 
+/// Of a part that is a formula, or an object of them.
+Names namesInPart(const TypedKind& kind, const Value& typed) {
+    FormulaNames own(kind);
+    if (typed.isString()) own.read(typed.asString());
+    if (typed.isObject())
+        for (const auto& [key, member] : typed.asObject())
+            if (member.isString()) own.read(member.asString());
+    return own.all;
+}
+
 /// A value that lets one see something: gravity, weak damping, else 1.
 double valueFor(const std::string& name) {
     const std::string stem = stemOf(name);
@@ -268,15 +278,7 @@ TypedNames::Outcome TypedNames::outcomeOf(const Value& document, const std::stri
         std::erase_if(after, [&](const std::string& name) { return !isMentioned(name); });
     Names known = after;
     for (const auto& [name, value] : parameters) known.push_back(name);
-    Names wanted = isFirst ? names.all : Names{};
-    if (!isFirst) {
-        FormulaNames own(kind);
-        if (typed.isString()) own.read(typed.asString());
-        if (typed.isObject())
-            for (const auto& [key, member] : typed.asObject())
-                if (member.isString()) own.read(member.asString());
-        wanted = own.all;
-    }
+    const Names wanted = isFirst ? names.all : namesInPart(kind, typed);
     const Value* const controls = valueAt(next, "/model/controls");
     for (const std::string& name : wanted) {
         if (name == "t" || name == "pi" || has(after, name) || isParameter(name)) continue;
