@@ -37,14 +37,14 @@ inline void chains(PeerTable& table) {
     };
     for (const int degree : {2, 3, 4}) {
         const Make make = schemeOf(*namedScheme("galerkin-gauss-" + std::to_string(degree)));
-        add("degree " + std::to_string(degree), false, counts(50, 6400, 2),
+        add("degree " + std::to_string(degree), false, counts(12, 3200, 2),
             [&](double n) { return errorOf(tip(make, n)); });
     }
     const Make rattle = baselineOf("rattle");
     add("RATTLE", true, counts(200, 409600, 4), [&](double n) { return errorOf(tip(rattle, n)); });
 #ifdef EXTREMAL_HAS_IDA
     add("IDA", true, ratios(1e-4, 1e-13, 0.1), [&](double tolerance) {
-        const auto at = idaTip(of, T, tolerance);
+        const auto at = idaTip(of, T, tolerance, 60);
         return at ? errorOf(*at) : std::vector<double>{HUGE_VAL};
     });
     table.add("P7 chain, IDA", curves, 0, "IDA");
