@@ -3,12 +3,16 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "engine/model/first_order/one_form.hpp"
 #include "engine/model/first_order/poisson.hpp"
 #include "engine/model/group/lie_group.hpp"
 #include "engine/model/group/spheres.hpp"
+#include "engine/model/spins/spins.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/jacobian.hpp"
 #include "tests/tools/tangent.hpp"
@@ -98,6 +102,50 @@ double sphereDefect(const Trial& trial, double each) {
            (first.cwiseAbs().maxCoeff() * step.map.cwiseAbs().maxCoeff());
 }
 
+/// The derivative of the spins by the coordinates above them (model/spins/spins.hpp), rows s_1 .. of each.
+Eigen::MatrixXd slopeOfSpins(const SpinModel& model, const std::vector<double>& x) {
+    const Eigen::Index n = model.count();
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(3 * n, 4 * n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double w = 4 * model.weights[static_cast<std::size_t>(i)];
+        const auto at = [&](Eigen::Index k) { return x[static_cast<std::size_t>(k)]; };
+        const Eigen::Index A = 2 * i, C = A + 1, B = 2 * n + A, E = B + 1;
+        const double a = at(A), c = at(C), b = at(B) / w, d = at(E) / w;
+        D.row(3 * i)(A) = 2 * c, D.row(3 * i)(C) = 2 * a;
+        D.row(3 * i)(B) = 2 * d / w, D.row(3 * i)(E) = 2 * b / w;
+        D.row(3 * i + 1)(A) = 2 * d, D.row(3 * i + 1)(C) = -2 * b;
+        D.row(3 * i + 1)(B) = -2 * c / w, D.row(3 * i + 1)(E) = 2 * a / w;
+        D.row(3 * i + 2)(A) = 2 * a, D.row(3 * i + 2)(C) = -2 * c;
+        D.row(3 * i + 2)(B) = 2 * b / w, D.row(3 * i + 2)(E) = -2 * d / w;
+    }
+    return D;
+}
+/// The canonical bracket of the spins after a step against {s_j, s_k} = e_jkl s_l / w there: what a step does
+/// to phases above the spheres is its own affair.
+double spinDefect(const Trial& trial, double each, const SpinModel& model) {
+    const DifferencedStep step(trial, each);
+    if (!step.isKnown()) return notKnown;
+    const Eigen::Map<const Eigen::VectorXd> own(trial.on.own.data(), step.map.rows());
+    const Eigen::Index n = model.count();
+    const Eigen::MatrixXd M = own.asDiagonal() * step.map * own.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd D = slopeOfSpins(model, step.end->x) * M;
+    Eigen::MatrixXd defect = D.leftCols(2 * n) * D.rightCols(2 * n).transpose();
+    defect -= defect.transpose().eval();
+    std::vector<double> s(static_cast<std::size_t>(3 * n));
+    spins::spinsOf(model, step.end->x.data(), step.end->x.data() + 2 * n, s.data());
+    double largest = 0;
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < 3; ++j) {
+            const Eigen::Index k = (j + 1) % 3, l = (j + 2) % 3;
+            const double bracket =
+                s[static_cast<std::size_t>(3 * i + l)] / model.weights[static_cast<std::size_t>(i)];
+            defect(3 * i + j, 3 * i + k) -= bracket;
+            defect(3 * i + k, 3 * i + j) += bracket;
+            largest = std::max(largest, std::abs(bracket));
+        }
+    return defect.cwiseAbs().maxCoeff() / largest;
+}
+
 /// With the tangent map of the step itself, which laws.matrix_groups compares with differences.
 double groupDefect(const Trial& trial, double each) {
     const Subject& on = trial.on;
@@ -118,6 +166,7 @@ std::optional<double> ownFormDefect(const Trial& trial, double each) {
         return bracketDefect(trial, each, *bracket);
     if (parts.find<LieGroup>()) return groupDefect(trial, each);
     if (parts.find<Spheres>()) return sphereDefect(trial, each);
+    if (const Spins* const spins = parts.find<Spins>()) return spinDefect(trial, each, *spins->model);
     return {};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// How far a step is from keeping the form of phase spaces that are not those of coordinates: of one-forms,
-/// of brackets and of groups given as data.
+/// of brackets, of groups given as data, of points and of spins on spheres.
 #pragma once
 
 #include <optional>

@@ -189,6 +189,46 @@ private slots:
         }
     }
 
+    /// The spherical midpoint method: order 2, its step back, lengths and sums; its form is a claim
+    /// (laws.claims_others).
+    void sphericalMidpoint() {
+        const auto make = [](const System& system, double h) {
+            return findBaseline("spherical-midpoint")
+                ->make(system, {h, {}, 0, Settings{"spherical-midpoint", {}, {}}});
+        };
+        for (const SpinCase& each : {heisenberg(), landauLifshitz(), vortices()}) {
+            const System system = each.system();
+            const State start = each.start(system);
+            const List reference = each.reference();
+            double slope = 0, before = 0;
+            for (int n = 2 * each.coarsest; n <= 8 * each.coarsest; n *= 2) {
+                const auto end = after(*make(system, each.duration / n), start, n);
+                QVERIFY(end);
+                const List now = spinsAt(system, *end);
+                const double error = distance(now, reference, 0, now.size());
+                slope = std::log2(before / error);
+                before = error;
+                QVERIFY(lengthOff(now) < 1e-14);
+            }
+            const auto there = after(*make(system, 0.1), start, 50),
+                       back = after(*make(system, -0.1), *there, 50);
+            QVERIFY(there && back);
+            const double returned = distance(spinsAt(system, *back), each.spins, 0, each.spins.size());
+            qInfo("%s: error %.2e, slope %.2f, back to %.1e", each.name, before, slope, returned);
+            QVERIFY2(slope > 1.9 && slope < 2.1, each.name);
+            QVERIFY(returned < 1e-12);
+        }
+        const System ring = heisenberg().system();
+        const State start = heisenberg().start(ring);
+        const auto end = after(*make(ring, 0.2), start, 20000);
+        QVERIFY(end);
+        double values[4];
+        measureOf(ring, "momentum")->bind(start)(0, end->x.data(), values);
+        qInfo("20000 steps: sum %.1e", values[3]);
+        QVERIFY(values[3] < 1e-11);
+        QVERIFY(!appliesTo(*findBaseline("spherical-midpoint"), systemNamed("pendulum")));
+    }
+
     void kept() {
         const SpinCase each = landauLifshitz();
         const System ring = heisenberg().system();
