@@ -110,21 +110,50 @@ const ModelEntry* entryOf(const Value& model) {
     return type && type->isString() ? findModel(type->asString()) : nullptr;
 }
 
+/// A model of the plane by directions, {"domain": {"x": [0, 1], "y": [0, 2]}, "cells": [32, 64]}, as the
+/// models of the plane have it, "domain", "domain_y", "cells", "cells_y"; that of a line named so is the one
+/// of the plane. Anything else as it is.
+Value byKeys(const Value& model) {
+    const Value* const domain = model.find("domain");
+    if (!domain || !domain->isObject()) return model;
+    const auto isXY = [](const Value::Member& m) { return m.first == "x" || m.first == "y"; };
+    const Value::Object& ends = domain->asObject();
+    if (ends.size() != 2 || !std::all_of(ends.begin(), ends.end(), isXY)) return model;
+    Value made(Value::Object{});
+    for (const auto& [key, value] : model.asObject()) {
+        const bool isOfLine = key == "type" && value.isString() && !value.asString().ends_with("-2d");
+        const bool isPair =
+            (key == "cells" || key == "modes") && value.isArray() && value.asArray().size() == 2;
+        if (key == "domain") {
+            made.set(key, *domain->find("x"));
+            made.set(key + "_y", *domain->find("y"));
+        } else if (isPair) {
+            made.set(key, value.asArray()[0]);
+            made.set(key + "_y", value.asArray()[1]);
+        } else {
+            made.set(key, isOfLine && findModel(value.asString() + "-2d") ? Value(value.asString() + "-2d")
+                                                                          : value);
+        }
+    }
+    return made;
+}
+
 }  // namespace
 
 std::optional<System> readModel(Reader& reader, const Value& document, Scene& scene) {
     reader.hasUnknownModel = true;
-    const Value* model = document.find("model");
-    if (!model) {
+    const Value* given = document.find("model");
+    if (!given) {
         reader.error("/model", "is required", "for example \"model\": { \"type\": \"pendulum\" }");
         return {};
     }
-    const ModelEntry* entry = entryOf(*model);
+    const Value model = byKeys(*given);
+    const ModelEntry* entry = entryOf(model);
     if (entry) {
         reader.hasUnknownModel = false;
-        ParameterResolver(reader, *model, entry->item.parameters).resolveAll();
+        ParameterResolver(reader, model, entry->item.parameters).resolveAll();
     }
-    const auto settings = readSettings(reader, *model, "/model", "model", modelItems());
+    const auto settings = readSettings(reader, model, "/model", "model", modelItems());
     if (!settings) return {};
     scene.model = *settings;
     try {

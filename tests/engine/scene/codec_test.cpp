@@ -44,6 +44,34 @@ std::string textOf(const std::vector<Problem>& problems) {
 class CodecTest : public QObject {
     Q_OBJECT
 private slots:
+    /// A plane by directions is the one by keys, and what is wrong in it is named by these.
+    void planesByDirections() {
+        const auto withModel = [](const std::string& model) {
+            return readScene(R"({"extremal":1,"model":)" + model +
+                             R"(,"time":{"end":1},"schemes":[{"baseline":"rk4","step":0.01}]})");
+        };
+        const ReadScene byKeys = withModel(R"({"type":"field-2d","potential":"phi4","domain":[-1,1],)"
+                                           R"("domain_y":[0,"4/2"],"cells":8,"cells_y":16})");
+        const auto ofModel = [](const ReadScene& read) {  // the scheme is another matter
+            return std::count_if(read.errors.begin(), read.errors.end(),
+                                 [](const Problem& p) { return p.pointer.starts_with("/model"); });
+        };
+        QCOMPARE(ofModel(byKeys), 0);
+        for (const char* type : {"field", "field-2d"}) {
+            const ReadScene read =
+                withModel(R"({"type":")" + std::string(type) +
+                          R"(","potential":"phi4","domain":{"x":[-1,1],"y":[0,"4/2"]},"cells":[8,16]})");
+            QCOMPARE(ofModel(read), 0);
+            QVERIFY(read.scene.model == byKeys.scene.model);
+        }
+        QCOMPARE(withModel(R"({"type":"schrodinger","domain":{"x":[0,1],"y":[0,2]},"modes":[8,16]})")
+                     .scene.model.type,
+                 std::string("schrodinger-2d"));
+        QVERIFY(ofModel(withModel(R"({"type":"field","domain":{"x":[0,1]},"cells":[8,8]})")) > 0);
+        QVERIFY(ofModel(withModel(R"({"type":"pendulum","domain":{"x":[0,1],"y":[0,1]}})")) > 0);
+        const ReadScene odd = withModel(R"({"type":"field","domain":{"x":[0,1],"y":[2,1]},"cells":[8,8]})");
+        QVERIFY(!odd.errors.empty() && odd.errors[0].pointer.starts_with("/model/domain_y"));
+    }
     void everyMistakeIsNamedWhereItStands_data() {
         QTest::addColumn<QString>("set");  // an override that spoils the good scene
         QTest::addColumn<QString>("pointer");
