@@ -22,7 +22,8 @@ bool writePicture(MainWindow& window, const QString& preset, const QString& file
     bool isDone = waitForResults(window);
     // The lines of speed against accuracy are measured in the background, where errors are known.
     const auto* sweep = window.findChild<BackgroundSweep*>();
-    const bool hasErrors = window.runControl().results()->reference.type != "none";
+    const auto results = window.runControl().results();
+    const bool hasErrors = results && results->reference.type != "none";
     isDone = isDone && (!hasErrors || QTest::qWaitFor([&] { return !sweep->known().empty(); }, 8000));
     Playback& playback = window.playback();
     playback.setTime(playback.start() + 0.62 * (playback.end() - playback.start()));
