@@ -160,7 +160,8 @@ private:
             call << QString::fromStdString(std::string(random.of(options)));
             if (!random.oneIn(4)) call << value(random);
         }
-        if (random.oneIn(12)) call.removeAt(static_cast<qsizetype>(random.below(std::size_t(call.size()))));
+        if (random.oneIn(12) && call.size() > 1)
+            call.removeAt(static_cast<qsizetype>(random.below(std::size_t(call.size()))));
         if (random.oneIn(12)) call << random.of(call);
         if (random.oneIn(20)) call.insert(1, value(random));
         return call;
