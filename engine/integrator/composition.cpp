@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/integrator/shared_force.hpp"
+#include "engine/integrator/variation/transposed_step.hpp"
 
 namespace extremal {
 namespace {
@@ -21,7 +22,7 @@ FieldInfo orderField() {
     return f;
 }
 
-class Composition final : public Integrator {
+class Composition final : public Integrator, public TransposedStep {
 public:
     Composition(std::vector<double> parts, const Integrator& scheme)
         : parts_(std::move(parts)), h_(scheme.stepSize()) {
@@ -82,6 +83,10 @@ public:
     bool applyTangent(std::span<double> W) override {
         return std::all_of(schemes_.begin(), schemes_.end(),
                            [&](const auto& scheme) { return scheme->applyTangent(W); });
+    }
+    bool applyTransposed(std::span<double> W) override {
+        return std::all_of(schemes_.rbegin(), schemes_.rend(),
+                           [&](const auto& scheme) { return extremal::applyTransposed(*scheme, W); });
     }
 
     /// The actions of the parts add.

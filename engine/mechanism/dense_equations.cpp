@@ -86,6 +86,7 @@ public:
         return lu_.factorise();
     }
     void solve(Vector& x) const override { lu_.solve(x.data()); }
+    void solveTransposed(Vector& x) const override { lu_.solveTransposed(x.data()); }
 
 private:
     Rows& byPlaceAt(int j) { return byPlace_[static_cast<std::size_t>(j)]; }

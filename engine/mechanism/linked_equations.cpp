@@ -66,6 +66,7 @@ public:
     }
     Outcome factorise() override { return lu_.factorise(); }
     void solve(Vector& x) const override { lu_.solve(x.data()); }
+    void solveTransposed(Vector& x) const override { lu_.solveTransposed(x.data()); }
     std::string about() const override {
         return std::to_string(lu_.blocks()) + " blocks of up to " + std::to_string(lu_.largest()) +
                " unknowns";

@@ -36,14 +36,12 @@ MechanismCurve::MechanismCurve(const Table<double>& ofStep, const MechanismRules
         rolling.b.assign(weights.begin(), weights.end() - 1);
     }
     atRolling = samples(rolling.c).value;
-    if (rules.forces)
-        atForces.rule = *rules.forces;
-    else
-        for (int i = 0; i < table.nodes(); ++i) {
-            atForces.rule.c.push_back(table.node(i));
-            atForces.rule.b.push_back(table.weight(i));
-        }
-    for (Nodes* each : {&atGauss, &atForces}) each->at = samples(each->rule.c);
+    for (int i = 0; i < table.nodes(); ++i) {
+        atLagrangian.rule.c.push_back(table.node(i));
+        atLagrangian.rule.b.push_back(table.weight(i));
+    }
+    atForces.rule = rules.forces ? *rules.forces : atLagrangian.rule;
+    for (Nodes* each : {&atLagrangian, &atGauss, &atForces}) each->at = samples(each->rule.c);
 }
 
 MechanismCurve::Samples MechanismCurve::samples(const std::vector<double>& at) const {

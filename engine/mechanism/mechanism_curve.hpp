@@ -68,8 +68,9 @@ struct MechanismCurve {
         const int parts = partsPerFunction * unknowns(), k = static_cast<int>(tau * parts + 0.5);
         return k >= 0 && k <= parts && static_cast<double>(k) / parts == tau ? k : -1;
     }
-    Nodes atForces;  ///< of the forces
-    Nodes atGauss;   ///< the m Gauss nodes, where rolling conditions hold
+    Nodes atLagrangian;  ///< those of the table
+    Nodes atForces;      ///< of the forces
+    Nodes atGauss;       ///< the m Gauss nodes, where rolling conditions hold
 };
 
 }  // namespace extremal

@@ -36,6 +36,7 @@ public:
     /// The matrix there, and its solution in place of a right-hand side.
     virtual Outcome factorise() = 0;
     virtual void solve(Vector& x) const = 0;
+    virtual void solveTransposed(Vector& x) const = 0;
     /// How, where that was a choice.
     virtual std::string about() const { return {}; }
 

@@ -8,12 +8,15 @@
 #include <vector>
 
 #include "engine/core/algebra/exact_sum.hpp"
+#include "engine/integrator/variation/hessian_pull.hpp"
+#include "engine/integrator/variation/transposed_step.hpp"
 #include "engine/mechanism/dense_equations.hpp"
 #include "engine/mechanism/linked_equations.hpp"
 #include "engine/mechanism/mechanism.hpp"
 #include "engine/mechanism/mechanism_curve.hpp"
 #include "engine/mechanism/mechanism_equations.hpp"
 #include "engine/mechanism/said_of_forces.hpp"
+#include "engine/mechanism/step_adjoint.hpp"
 #include "engine/mechanism/step_variation.hpp"
 #include "engine/mechanism/varied_step.hpp"
 #include "engine/solve/step_continuation.hpp"
@@ -24,7 +27,7 @@ namespace {
 using Vector = Eigen::VectorXd;
 constexpr int mostVaried = 64;  ///< coordinates, of a tangent map with full matrices
 
-class MechanismStep final : public Integrator, public VariedStep {
+class MechanismStep final : public Integrator, public VariedStep, public TransposedStep {
 public:
     MechanismStep(const Parts& parts, const Table<double>& table, const MechanismRules& rules, double step,
                   const SolverPolicy& policy, LinkedAlgebra algebra)
@@ -35,7 +38,8 @@ public:
           policy_(policy),
           tolerance_(toleranceOf<double>(policy)),
           h_(step),
-          said_(parts, mechanism_.dimension()) {
+          said_(parts, mechanism_.dimension()),
+          adjoint_(mechanism_, curve_) {
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
         Y_ = Vector::Zero(m * d);
         impulses_ = Vector::Zero(m * n);
@@ -147,19 +151,29 @@ public:
         return W.allFinite();
     }
 
+    bool applyTransposed(std::span<double> W) override {
+        if (!pull_) pull_.emplace(mechanism_.mechanics(), mechanism_.force());
+        pull_->beginStep(static_cast<int>(W.size() / tangentSize()));
+        return pullBack(W, *pull_);
+    }
+    bool hasNodes() const override { return constraints() == 0; }
+    void visitNodes(const std::function<void(const NodePull::Node&)>& visit) override {
+        adjoint_.visit({start_, h_, z_, impulses_}, visit);
+    }
+    bool pullBack(std::span<double> W, NodePull& pull) override {
+        const auto rows = static_cast<Eigen::Index>(tangentSize());
+        const Eigen::Map<Eigen::MatrixXd> columns(W.data(), rows, static_cast<Eigen::Index>(W.size()) / rows);
+        return (!isProjected() || transposeProjection(columns)) &&
+               adjoint_.apply({start_, h_, z_, impulses_}, *equations_, pull, columns);
+    }
+
     double discreteEnergy() const override {
         const Table<double>& table = curve_.table;
         const auto& L = mechanism_.mechanics();
         const int d = dimension();
         double sum = 0;
         for (int i = 0; i < table.nodes(); ++i) {
-            auto q = node_.head(d), v = node_.tail(d);
-            q = z_.head(d);
-            v.setZero();
-            for (int a = 0; a < curve_.unknowns(); ++a) {
-                q += table.value(i, a) * Y_.segment(a * d, d);
-                v += table.derivative(i, a) / h_ * Y_.segment(a * d, d);
-            }
+            curve_.motionAt(curve_.atLagrangian, z_, i, h_, node_);
             const double* const x = node_.data();
             const double t = start_ + table.node(i) * h_;
             L.gradient(L.model.get(), t, x, x + d, gradient_.data());
@@ -190,6 +204,21 @@ private:
     int constraints() const { return mechanism_.constraints(); }
     /// Whether p at the end is moved onto the conditions.
     bool isProjected() const { return constraints() > 0 && !curve_.isRollingAtGauss; }
+
+    /// Derivatives by (q_1, p_1) become those by q_1 and by p_0 + A.
+    bool transposeProjection(Eigen::Map<Eigen::MatrixXd> columns) {
+        using Matrix = Eigen::MatrixXd;
+        const int d = dimension();
+        Matrix dq = Matrix::Identity(d, 2 * d), dp = Matrix::Zero(d, 2 * d);
+        dp.rightCols(d).setIdentity();
+        const Eigen::RowVectorXd fixed = Eigen::RowVectorXd::Zero(2 * d);
+        if (!mechanism_.varyProjection(start_ + h_, q1_.data(), endVelocity_, kappa_, dq, fixed, dp))
+            return false;
+        const Matrix given = columns.bottomRows(d);
+        columns.bottomRows(d).setZero();
+        columns += dp.transpose() * given;
+        return true;
+    }
 
     /// (q, L_v) at tau, with the functions there in a row of `at`.
     void onCurve(double tau, const MechanismCurve::Samples& at, int row, std::span<double> x) const {
@@ -442,8 +471,10 @@ private:
     Vector velocity_, acceleration_, multipliers_, endVelocity_, kappa_, masses_, startMasses_,
         reactionScale_;
     Vector forces_;
-    mutable Vector node_, gradient_;  ///< of dense output
+    mutable Vector node_, gradient_;  ///< of one node
+    std::optional<HessianPull> pull_;
     SaidOfForces said_;
+    StepAdjoint adjoint_;
     mutable std::optional<Mechanism> measured_;
     std::optional<StepVariation> variation_;
     double start_ = 0, nearness_ = 0;

@@ -54,6 +54,16 @@ void subtractProduct(const double* A, std::size_t rows, std::size_t columns, con
     }
 }
 
+/// y -= A^T x.
+void subtractTransposed(const double* A, std::size_t rows, std::size_t columns, const double* x, double* y) {
+    for (std::size_t j = 0; j < columns; ++j) {
+        const double* column = A + j * rows;
+        double sum = 0;
+        for (std::size_t i = 0; i < rows; ++i) sum += column[i] * x[i];
+        y[j] -= sum;
+    }
+}
+
 }  // namespace
 
 BlockLu::BlockLu(std::vector<std::vector<int>> blocks, const std::vector<std::pair<int, int>>& couplings,
@@ -152,10 +162,18 @@ Outcome BlockLu::factorise() {
     return Outcome::converged;
 }
 
-void BlockLu::solve(double* x) const {
-    const double* const v = values_.data();
+void BlockLu::gather(const double* x) const {
     for (std::size_t b = 0; b < blocks_.size(); ++b)
         for (std::size_t i = 0; i < blocks_[b].size(); ++i) right_[first_[b] + i] = x[blocks_[b][i]];
+}
+void BlockLu::scatter(double* x) const {
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        for (std::size_t i = 0; i < blocks_[b].size(); ++i) x[blocks_[b][i]] = right_[first_[b] + i];
+}
+
+void BlockLu::solve(double* x) const {
+    const double* const v = values_.data();
+    gather(x);
     for (const Elimination& e : order_) {
         const std::size_t n = size(e.block), f = first_[at(e.block)];
         double* const own = &right_[f];
@@ -167,8 +185,25 @@ void BlockLu::solve(double* x) const {
         for (const Neighbour& j : e->neighbours)
             subtractProduct(v + j.beside, size(e->block), size(j.block), &right_[first_[at(j.block)]],
                             &right_[first_[at(e->block)]]);
-    for (std::size_t b = 0; b < blocks_.size(); ++b)
-        for (std::size_t i = 0; i < blocks_[b].size(); ++i) x[blocks_[b][i]] = right_[first_[b] + i];
+    scatter(x);
+}
+
+/// The factors are L with the blocks (k, k) and (j, k), and U with 1 and (k, k)^-1 (k, j).
+void BlockLu::solveTransposed(double* x) const {
+    const double* const v = values_.data();
+    gather(x);
+    for (const Elimination& e : order_)
+        for (const Neighbour& j : e.neighbours)
+            subtractTransposed(v + j.beside, size(e.block), size(j.block), &right_[first_[at(e.block)]],
+                               &right_[first_[at(j.block)]]);
+    for (auto e = order_.rbegin(); e != order_.rend(); ++e) {
+        const std::size_t n = size(e->block), f = first_[at(e->block)];
+        double* const own = &right_[f];
+        for (const Neighbour& j : e->neighbours)
+            subtractTransposed(v + j.below, size(j.block), n, &right_[first_[at(j.block)]], own);
+        lu::solveTransposed(v + e->diagonal, n, &inverse_[f], &exchanged_[f], own);
+    }
+    scatter(x);
 }
 
 }  // namespace extremal

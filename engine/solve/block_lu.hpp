@@ -38,6 +38,8 @@ public:
     Outcome factorise();
     /// Replaces the right-hand side by the solution.
     void solve(double* x) const;
+    /// That of the transposed matrix.
+    void solveTransposed(double* x) const;
 
     int blocks() const { return static_cast<int>(blocks_.size()); }
     std::size_t largest() const;
@@ -45,6 +47,8 @@ public:
     double work() const { return work_; }
 
 private:
+    void gather(const double* x) const;
+    void scatter(double* x) const;
     static std::size_t at(int i) { return static_cast<std::size_t>(i); }
     std::size_t size(int block) const { return blocks_[at(block)].size(); }
     std::size_t entry(int row,

@@ -64,6 +64,25 @@ void solve(const T* a, std::size_t n, const T* inverse, const std::size_t* row, 
     }
 }
 
+/// The same of the transposed matrix.
+template <class T>
+void solveTransposed(const T* a, std::size_t n, const T* inverse, const std::size_t* row, T* x) {
+    for (std::size_t k = 0; k < n; ++k) {
+        const T* column = a + k * n;
+        T sum = x[k];
+        for (std::size_t i = 0; i < k; ++i) sum -= column[i] * x[i];
+        x[k] = sum * inverse[k];
+    }
+    for (std::size_t k = n; k-- > 0;) {
+        const T* column = a + k * n;
+        T sum = x[k];
+        for (std::size_t i = k + 1; i < n; ++i) sum -= column[i] * x[i];
+        x[k] = sum;
+    }
+    for (std::size_t k = n; k-- > 0;)
+        if (row[k] != k) std::swap(x[k], x[row[k]]);
+}
+
 }  // namespace lu
 
 template <class T>
@@ -79,6 +98,9 @@ public:
     Outcome factorise() { return lu::factorise(a_.data(), size_, inverse_.data(), row_.data()); }
     /// Replaces the right-hand side by the solution.
     void solve(T* x) const { lu::solve(a_.data(), size_, inverse_.data(), row_.data(), x); }
+    void solveTransposed(T* x) const {
+        lu::solveTransposed(a_.data(), size_, inverse_.data(), row_.data(), x);
+    }
 
 private:
     std::size_t size_;

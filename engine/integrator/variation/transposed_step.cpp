@@ -6,7 +6,11 @@
 namespace extremal {
 
 bool applyTransposed(Integrator& integrator, std::span<double> W) {
-    if (auto* const own = dynamic_cast<TransposedStep*>(&integrator)) return own->applyTransposed(W);
+    auto* const own = dynamic_cast<TransposedStep*>(&integrator);
+    return own ? own->applyTransposed(W) : transposeByColumns(integrator, W);
+}
+
+bool transposeByColumns(Integrator& integrator, std::span<double> W) {
     const auto n = static_cast<Eigen::Index>(integrator.tangentSize());
     Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
     if (!integrator.applyTangent({M.data(), static_cast<std::size_t>(M.size())})) return false;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "engine/integrator/variation/transposed_step.hpp"
 #include "engine/integrator/variation/with_exponents.hpp"
 #include "engine/integrator/variation/with_variations.hpp"
 #include "engine/mechanism/tangent_space.hpp"
@@ -155,6 +156,13 @@ private slots:
                 (M.col(c) - byDifferences(of, scheme.toStdString(), h, B.col(c))).cwiseAbs().maxCoeff());
         qInfo("difference %.1e of %.1e", worst, M.cwiseAbs().maxCoeff());
         QVERIFY(worst < 2e-8 * M.cwiseAbs().maxCoeff());
+        // With the transposed matrix of the step, and with that of its columns.
+        Matrix all = Matrix::Identity(n, n), transposed = all;
+        QVERIFY(integrator->applyTangent({all.data(), static_cast<std::size_t>(all.size())}));
+        QVERIFY(applyTransposed(*integrator, {transposed.data(), static_cast<std::size_t>(all.size())}));
+        const double apart = (transposed - all.transpose()).cwiseAbs().maxCoeff();
+        qInfo("transposed off by %.1e of %.1e", apart, all.cwiseAbs().maxCoeff());
+        QVERIFY(apart < 1e-12 * all.cwiseAbs().maxCoeff());
     }
     void constrainedStepsKeepTheFormOfTheirManifold_data() {
         QTest::addColumn<QString>("name");
