@@ -68,6 +68,13 @@ public:
     bool applyTransposed(std::span<double> W) override {
         return step_.applyTransposed(start_, W.data(), static_cast<int>(W.size() / tangentSize()));
     }
+    bool hasNodes() const override { return parts_.empty(); }
+    void visitNodes(const std::function<void(const NodePull::Node&)>& visit) override {
+        step_.visitNodes(start_, visit);
+    }
+    bool pullBack(std::span<double> W, NodePull& pull) override {
+        return step_.applyTransposed(start_, W.data(), static_cast<int>(W.size() / tangentSize()), &pull);
+    }
 
     /// E_d = -dS/dh at the solution, and S; not where the functions change with the step, or L with time.
     std::span<const Quantity> quantities() const override {

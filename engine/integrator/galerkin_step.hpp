@@ -58,6 +58,7 @@
 #include "engine/core/text/archive.hpp"
 #include "engine/integrator/force_defect.hpp"
 #include "engine/integrator/node_iteration.hpp"
+#include "engine/integrator/variation/transposed_step.hpp"
 #include "engine/integrator/velocity_iteration.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/solve/correction_size.hpp"
@@ -102,8 +103,15 @@ public:
     /// W <- M W for columns (dq, dp), with the tangent map M of the last step, which began at t
     /// (galerkin_step_tangent.hpp). False where its equations are singular.
     bool applyTangent(const T& t, T* W, int columns);
-    /// W <- M^T W for columns of derivatives by (q_1, p_1), with one transposed solve for each.
-    bool applyTransposed(const T& t, T* W, int columns);
+    /// W <- M^T W for columns of derivatives by (q_1, p_1), with one transposed solve for each; with the
+    /// derivatives at nodes by `pull`, where it is not null.
+    bool applyTransposed(const T& t, T* W, int columns, NodePull* pull = nullptr);
+    /// The nodes of the last step, which began at t; not of terms with rules of their own.
+    template <class Visit>
+    void visitNodes(const T& t, const Visit& visit) {
+        placeSolution();
+        for (int i = 0; i < n(); ++i) visit(nodeAt(t, i));
+    }
 
     /// Forgets the previous curve: the next step starts from a Taylor guess.
     void restart() {
@@ -187,6 +195,7 @@ private:
     void assembleBlock(int k, int l);
     void applyHessian(int k, int l, bool isSlope);
     bool assembleJacobian(const T& t);
+    bool factoriseJacobian();
     bool startFrom(const T& t, StartingValue start);
     bool startVelocity(const T& t);
     bool startFromMotion(const T& t);
@@ -206,9 +215,14 @@ private:
     Outcome solve(const T& t, const std::stop_token& stop);
     void resume(const T* q, const T* p);
     void add(T* q, T* p);
+    void placeSolution();
+    NodePull::Node nodeAt(const T& t, int i) requires std::is_same_v<T, double>;
     bool linearise(const T& t);
     void vary(const T* dq0, bool movesY);
-    void pullBack(const T* byMomentum);
+    void pullBack(const T& t, const T* byMomentum, NodePull* pull);
+    void addHessian(int i);
+    bool takeHessians(const T& t, NodePull& pull);
+    bool iterateTransposed();
 
     Mechanics<T> mechanics_;
     std::vector<LagrangianTerm<T>> parts_;  ///< empty: the whole Lagrangian at every node
@@ -230,7 +244,10 @@ private:
     Vector q0_, p0_, v0_, a0_, dq_, dp_;
     Vector carryQ_, carryP_, lastQ_, lastP_;  ///< lost to rounding; and the state it belongs to
     Vector placeQ_, placeV_;
-    Flat weightedLq_, weightedLv_;  ///< h b_i times L_q(i) and L_v(i), or rows of L'', of one coordinate
+    Flat tested_, right_;  ///< of the iteration on transposed equations
+    Columns pulled_;
+    Vector eta_, rate_, byQ_, byV_;  ///< of the test curve at one node, and derivatives there
+    Flat weightedLq_, weightedLv_;   ///< h b_i times L_q(i) and L_v(i), or rows of L'', of one coordinate
     Flat jetGradient_, jetHessian_;
     Square hessians_;              ///< (i, j): entry j of the Hessian at node i
     std::vector<bool> isPresent_;  ///< entry j is not 0 at all nodes

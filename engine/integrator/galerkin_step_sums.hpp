@@ -241,10 +241,15 @@ void GalerkinStep<T, D>::assembleNode(int i) {
 /// dR/dY at the present Y and its factorisation.
 template <class T, int D>
 bool GalerkinStep<T, D>::assembleJacobian(const T& t) {
+    return evaluateHessians(t) && factoriseJacobian();
+}
+
+/// dR/dY with the Hessians at hand.
+template <class T, int D>
+bool GalerkinStep<T, D>::factoriseJacobian() {
     // Seconds and more from some thousand unknowns on: the trial of a step, when a scene is read, is bounded.
     if (const auto size = static_cast<double>(jacobian_.rows()); size > 256)
         work::spend(size * size * (size / 3 + n()));
-    if (!evaluateHessians(t)) return false;
     if (isVectorised_) {
         for (int k = 0; k < d(); ++k)
             for (int l = 0; l <= k; ++l) assembleBlock(k, l);

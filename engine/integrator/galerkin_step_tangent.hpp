@@ -18,14 +18,27 @@
 
 namespace extremal {
 
-/// K and the Hessians at the nodes of the last solution.
+/// The last solution, at its nodes.
 template <class T, int D>
-bool GalerkinStep<T, D>::linearise(const T& t) {
+void GalerkinStep<T, D>::placeSolution() {
     if (isSolvedByFixedPoint_)
         withFixedPoint([&](const auto& solver) {
             solver.coefficients(Eigen::Map<Square>(Y_.data(), m(0), d()), gradient_.leftCols(d()));
         });
     placeNodes();
+}
+
+template <class T, int D>
+NodePull::Node GalerkinStep<T, D>::nodeAt(const T& t, int i) requires std::is_same_v<T, double> {
+    placeQ_ = nodeQ_.row(i).transpose();
+    placeV_ = nodeV_.row(i).transpose();
+    return {i, false, t + node_(i) * h_, weight_(i), placeQ_.data(), placeV_.data()};
+}
+
+/// K and the Hessians at the nodes of the last solution.
+template <class T, int D>
+bool GalerkinStep<T, D>::linearise(const T& t) {
+    placeSolution();
     return assembleJacobian(t);
 }
 
@@ -83,50 +96,134 @@ bool GalerkinStep<T, D>::applyTangent(const T& t, T* W, int columns) {
     return true;
 }
 
-/// d(l_p . A - w . R) by Y into R_ and by q_0 into dq_, w = delta_.
+/// The Hessians at the nodes by `pull`, which needs them as well.
 template <class T, int D>
-void GalerkinStep<T, D>::pullBack(const T* byMomentum) {
+bool GalerkinStep<T, D>::takeHessians(const T& t, NodePull& pull) {
+    if constexpr (std::is_same_v<T, double>)
+        for (int i = 0; i < n(); ++i) {
+            pull.hessian(nodeAt(t, i), jetHessian_.data());
+            for (int j = 0; j < 4 * d() * d(); ++j) hessians_(i, j) = jetHessian_(j);
+        }
+    return std::is_same_v<T, double>;
+}
+
+/// d(w_i (eta . L_q + eta' . L_v)) by q_i and v_i into byQ_ and byV_, at node i.
+template <class T, int D>
+void GalerkinStep<T, D>::addHessian(int i) {
+    const int dim = d();
+    for (int k = 0; k < dim; ++k) {
+        const T onLq = weight_(i) * eta_(k), onLv = weight_(i) * rate_(k);
+        if (mechanics_.isSeparable && parts_.empty()) {
+            for (int l = 0; l < dim; ++l) byQ_(l) += onLq * hessians_(i, k * 2 * dim + l);
+            byV_(k) += onLv * mechanics_.masses[k];
+            continue;
+        }
+        for (int l = 0; l < dim; ++l) {
+            const int onQ = k * 2 * dim + l, onV = (dim + k) * 2 * dim + l;
+            byQ_(l) += onLq * hessians_(i, onQ) + onLv * hessians_(i, onV);
+            byV_(l) += onLq * hessians_(i, onQ + dim) + onLv * hessians_(i, onV + dim);
+        }
+    }
+}
+
+/// d(l_p . A - w . R) by Y into R_ and by q_0 into dq_, w = delta_: the derivatives of the discrete action
+/// along eta = l_p - w_{m-1} + sum_{a<m-1} phi_a (-w_a) + phi_{m-1} w_{m-1}.
+template <class T, int D>
+void GalerkinStep<T, D>::pullBack(const T& t, const T* byMomentum, NodePull* pull) {
     const int dim = d();
     R_.setZero();
     dq_.setZero();
     for (int i = 0; i < n(); ++i) {
-        placeQ_.setZero();
-        placeV_.setZero();
         for (int k = 0; k < dim; ++k) {
             const int last = m(k) - 1;
             const T& w = delta_(offset(k) + last);
-            T onLq = byMomentum[k] - w, onLv(0);  // R_{m-1} = p_0 + A - G_{m-1}
+            eta_(k) = byMomentum[k] - w;  // R_{m-1} = p_0 + A - G_{m-1}
+            rate_(k) = T(0);
             for (int a = 0; a <= last; ++a) {
                 const T test = a < last ? -delta_(offset(k) + a) : w;
-                onLq += functions(k).value(i, a) * test;
-                onLv += functions(k).slope(i, a) * test;
-            }
-            onLq *= weight_(i);
-            onLv *= weight_(i);
-            for (int l = 0; l < dim; ++l) {
-                const int onQ = k * 2 * dim + l, onV = (dim + k) * 2 * dim + l;
-                placeQ_(l) += onLq * hessians_(i, onQ) + onLv * hessians_(i, onV);
-                placeV_(l) += onLq * hessians_(i, onQ + dim) + onLv * hessians_(i, onV + dim);
+                eta_(k) += functions(k).value(i, a) * test;
+                rate_(k) += functions(k).slope(i, a) * test;
             }
         }
-        dq_ += placeQ_;
+        byQ_.setZero();
+        byV_.setZero();
+        if (!pull) addHessian(i);
+        if constexpr (std::is_same_v<T, double>)
+            if (pull) pull->add(nodeAt(t, i), eta_.data(), rate_.data(), byQ_.data(), byV_.data());
+        dq_ += byQ_;
         for (int l = 0; l < dim; ++l)
             for (int a = 0; a < m(l); ++a)
-                R_(offset(l) + a) +=
-                    functions(l).value(i, a) * placeQ_(l) + functions(l).slope(i, a) * placeV_(l);
+                R_(offset(l) + a) += functions(l).value(i, a) * byQ_(l) + functions(l).slope(i, a) * byV_(l);
     }
 }
 
+/// Solves K^T w = R_ into delta_, where the fixed point found the step, with K_0 of the kinetic energy alone:
+/// w <- K_0^-T (R_ - (K - K_0)^T w) contracts as that iteration did. False where it does not reach round-off.
 template <class T, int D>
-bool GalerkinStep<T, D>::applyTransposed(const T& t, T* W, int columns) {
+bool GalerkinStep<T, D>::iterateTransposed() {
+    using std::abs;
+    if (!isSolvedByFixedPoint_ || !mechanics_.isSeparable) return false;
+    constexpr int most = 30;
+    const T roundOff = T(4) * std::numeric_limits<T>::epsilon();
+    const Functions& f = functions_.front();  // the fixed point has one table
+    const int dim = d(), own = m(0), last = own - 1;
+    delta_.setZero();
+    T before(0);
+    for (int iteration = 0; iteration < most; ++iteration) {
+        pulled_.setZero();
+        for (int k = 0; k < dim; ++k) {
+            const T* const w = delta_.data() + k * own;
+            for (int i = 0; i < n(); ++i) {
+                T eta = -w[last];
+                for (int a = 0; a < last; ++a) eta -= f.value(i, a) * w[a];
+                tested_(i) = weight_(i) * (eta + f.value(i, last) * w[last]);
+            }
+            for (int l = 0; l < dim; ++l)
+                for (int i = 0; i < n(); ++i) pulled_(i, l) += tested_(i) * hessians_(i, k * 2 * dim + l);
+        }
+        T change(0), size(0);
+        for (int l = 0; l < dim; ++l) {
+            const T part = kineticScale_ / mechanics_.masses[l];
+            T* const w = delta_.data() + l * own;
+            for (int a = 0; a < own; ++a) {
+                right_(a) = R_(l * own + a);
+                for (int i = 0; i < n(); ++i) right_(a) += f.value(i, a) * pulled_(i, l);
+            }
+            for (int a = 0; a < own; ++a) {
+                T next(0);
+                for (int b = 0; b < own; ++b) next += f.kineticInverse(b, a) * right_(b);
+                next *= part;
+                change = std::max(change, T(abs(next - w[a])));
+                size = std::max(size, T(abs(next)));
+                w[a] = next;
+            }
+        }
+        if (change <= roundOff * size) return true;
+        if (iteration > 1 && !(change <= before / T(2))) return false;
+        before = change;
+    }
+    return false;
+}
+
+template <class T, int D>
+bool GalerkinStep<T, D>::applyTransposed(const T& t, T* W, int columns, NodePull* pull) {
     const int dim = d();
-    if (!linearise(t)) return false;
-    for (T* w = W; columns > 0; --columns, w += 2 * dim) {
+    placeSolution();
+    if (!(pull && !isVectorised_ ? takeHessians(t, *pull) : evaluateHessians(t))) return false;
+    bool isFactored = false;
+    T* w = W;
+    for (int column = 0; column < columns; ++column, w += 2 * dim) {
+        if (pull) pull->begin(column);
         delta_.setZero();
-        pullBack(w + dim);
+        pullBack(t, w + dim, pull);
         for (int k = 0; k < dim; ++k) R_(offset(k) + m(k) - 1) += w[k];
-        delta_ = lu_.transpose().solve(R_);
-        pullBack(w + dim);
+        if (isFactored || !iterateTransposed()) {
+            if (!isFactored && !factoriseJacobian()) return false;
+            isFactored = true;
+            delta_ = lu_.transpose().solve(R_);
+        }
+        if (pull) pull->begin(column);
+        pullBack(t, w + dim, pull);
         for (int k = 0; k < dim; ++k) {
             w[k] += dq_(k);
             w[dim + k] -= delta_(offset(k) + m(k) - 1);

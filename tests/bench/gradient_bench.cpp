@@ -18,8 +18,9 @@ using namespace extremal;
 
 namespace {
 
-/// A chain of pendulums, the torque on the first of which is a table of so many rows, a step from row to row.
-ReadScene sceneOf(const std::string& scheme, int pendulums, int rows) {
+/// A chain of pendulums, the torque on the first of which is a table of so many rows, a step from row to row:
+/// a force, with friction, or a potential.
+ReadScene sceneOf(const std::string& scheme, int pendulums, int rows, bool isForce) {
     std::string table, names, lagrangian, initial, zeros;
     for (int k = 0; k < rows; ++k)
         table += (k ? ",[" : "[") + std::to_string(0.05 * k) + "," +
@@ -35,7 +36,8 @@ ReadScene sceneOf(const std::string& scheme, int pendulums, int rows) {
     }
     return readScene(R"json({"extremal":1,"model":{"type":"lagrangian","coordinates":[)json" + names +
                      R"json(],"lagrangian":")json" + lagrangian +
-                     R"json(","forces":{"x0":"u-0.1*x0_t"},"controls":{"u":{"table":[)json" + table +
+                     (isForce ? R"json(","forces":{"x0":"u-0.1*x0_t"})json" : R"json(+u*x0")json") +
+                     R"json(,"controls":{"u":{"table":[)json" + table +
                      R"json(],"interpolation":"linear"}}},"initial":{"q":[)json" + initial +
                      R"json(],"p":[)json" + zeros + R"json(]},"time":{"end":)json" +
                      std::to_string(0.05 * (rows - 1)) + R"json(},"schemes":[{"scheme":")json" + scheme +
@@ -54,8 +56,8 @@ double best(const Work& work) {
 }
 
 /// The row of one scheme; its ratio, or 0 where something failed.
-double ratioOf(const char* scheme, int pendulums, int rows) {
-    const ReadScene read = sceneOf(scheme, pendulums, rows);
+double ratioOf(const char* scheme, int pendulums, int rows, bool isForce) {
+    const ReadScene read = sceneOf(scheme, pendulums, rows, isForce);
     if (!read.resolved) {
         std::printf("%s\n", read.errors.front().message.c_str());
         return 0;
@@ -78,8 +80,9 @@ double ratioOf(const char* scheme, int pendulums, int rows) {
         (void)run.differentiate(l, by);
     });
     const double ratio = (recorded + backward) / plain;
-    std::printf("%-18s %9d %10.3f %10.3f %10.3f %8.2f %8.2f\n", scheme, pendulums, 1e3 * plain,
-                1e3 * recorded, 1e3 * backward, ratio, (recorded + backward) / recorded);
+    std::printf("%-18s %-9s %9d %10.3f %10.3f %10.3f %8.2f %8.2f\n", scheme, isForce ? "force" : "potential",
+                pendulums, 1e3 * plain, 1e3 * recorded, 1e3 * backward, ratio,
+                (recorded + backward) / recorded);
     return ratio;
 }
 
@@ -87,13 +90,14 @@ double ratioOf(const char* scheme, int pendulums, int rows) {
 
 int main() {
     constexpr int rows = 1000;
-    std::printf("%-18s %9s %10s %10s %10s %8s %8s\n", "scheme", "pendulums", "run [ms]", "recorded",
-                "backward", "ratio", "of own");
+    std::printf("%-18s %-9s %9s %10s %10s %10s %8s %8s\n", "scheme", "torque", "pendulums", "run [ms]",
+                "recorded", "backward", "ratio", "of own");
     double worst = 0;
-    for (const int pendulums : {1, 4, 12})
-        for (const char* scheme :
-             {"galerkin-gauss-1", "galerkin-gauss-2", "galerkin-gauss-3", "galerkin-gauss-4"})
-            worst = std::max(worst, ratioOf(scheme, pendulums, rows));
+    for (const bool isForce : {true, false})
+        for (const int pendulums : {1, 4, 12})
+            for (const char* scheme :
+                 {"galerkin-gauss-1", "galerkin-gauss-2", "galerkin-gauss-3", "galerkin-gauss-4"})
+                worst = std::max(worst, ratioOf(scheme, pendulums, rows, isForce));
     std::printf("at most %.2f runs for a gradient by %d controls\n", worst, rows);
     return 0;
 }

@@ -12,7 +12,7 @@ std::string sensitivityProblem(const ResolvedScene& scene, const ResolvedScheme&
                                const Integrator& integrator, double step, const State& start) {
     const std::string own = differentiationProblem(scene, scheme, integrator);
     if (!own.empty()) return "it has " + own;
-    const VariedMotion along = variedMotion(scene, scheme, step, start);
+    const VariedMotion along = variedMotion(scene, scheme, step, start, VariedDirection::forward);
     return along.problem.empty() ? along.varied.problem : along.problem;
 }
 
@@ -20,7 +20,7 @@ std::unique_ptr<Integrator> measuringSensitivities(std::unique_ptr<Integrator> i
                                                    const ResolvedScene& scene, const ResolvedScheme& scheme,
                                                    double step, const State& start) {
     if (!differentiationProblem(scene, scheme, *integrator).empty()) return integrator;
-    VariedMotion along = variedMotion(scene, scheme, step, start);
+    VariedMotion along = variedMotion(scene, scheme, step, start, VariedDirection::forward);
     if (!along.problem.empty()) return integrator;
     std::vector<std::string> entries;
     for (const Quantity& entry : stateColumns(*systemOf(scene, scheme))) entries.push_back(entry.name);

@@ -24,8 +24,12 @@ struct VariedMotion {
     std::string place;    ///< what a problem belongs to ("--over"); may be empty
 };
 
+/// Which way derivatives are wanted. Backwards, a scheme that can is made on the system without the
+/// parameters as coordinates, and is their step all the same (integrator/variation/held_step.hpp).
+enum class VariedDirection { forward, backward };
+
 /// `start`: of the scheme, x = (q, p).
 VariedMotion variedMotion(const ResolvedScene& scene, const ResolvedScheme& scheme, double step,
-                          const State& start, const VariedExtras& extras = {});
+                          const State& start, VariedDirection direction, const VariedExtras& extras = {});
 
 }  // namespace extremal

@@ -68,7 +68,7 @@ RunDerivative::RunDerivative(const ResolvedScene& scene, const Request& request)
     d_ = static_cast<int>(system.coordinates.size());
     const bool isVaried = !request.pointers.empty() || !extras.isEmpty();
     VariedMotion along;
-    if (isVaried) along = variedMotion(*scene_, scheme, step, start_, extras);
+    if (isVaried) along = variedMotion(*scene_, scheme, step, start_, VariedDirection::backward, extras);
     if (!along.problem.empty() && along.place == "--over") throw InvalidScene(along.place, along.problem);
     if (!along.problem.empty()) refuse(along.problem);
     if (!along.varied.problem.empty()) throw InvalidScene(request.option, along.varied.problem);
