@@ -78,7 +78,7 @@ Outcome BackwardSweep::backward(Eigen::MatrixXd& l, const Receive& receive) {
             if (!applyTransposed(*integrator_, {l.data(), static_cast<std::size_t>(l.size())}) ||
                 !l.allFinite())
                 return Outcome::refused;
-            if (receive) receive(k, l);
+            if (receive) receive(k, before, l);
             after = &before;
         }
         next = segment_.front();

@@ -33,8 +33,8 @@ public:
     };
     /// Sets entries of x before step k.
     using Prepare = std::function<void(long long k, std::span<double> x)>;
-    /// Takes l_k, and clears the entries that Prepare sets.
-    using Receive = std::function<void(long long k, Eigen::MatrixXd& l)>;
+    /// Takes l_k with the state at node k, and clears the entries that Prepare sets.
+    using Receive = std::function<void(long long k, const State& state, Eigen::MatrixXd& l)>;
 
     /// The scheme must have a tangentSize() of as many as entries of the state. Of codes that choose their
     /// steps those between the given nodes must be within the tolerance.
@@ -46,10 +46,6 @@ public:
     const State& end() const { return end_; }
     /// Moves the columns of l, dJ/dx at the end, to the start.
     Outcome backward(Eigen::MatrixXd& l, const Receive& receive = {});
-    /// State k of a run of at most mostStates steps.
-    const State& stateAt(long long k) const {
-        return k < steps_.count ? marks_[static_cast<std::size_t>(k)] : end_;
-    }
     /// The time of the step that failed last.
     double failedAt() const { return failedAt_; }
     /// How many states are kept at once.

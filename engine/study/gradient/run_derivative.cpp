@@ -160,19 +160,21 @@ Eigen::VectorXd RunDerivative::columnOf(const Eigen::VectorXd& byState, double b
 }
 
 Outcome RunDerivative::differentiate(Eigen::MatrixXd columns, Derivatives& derivatives, const See& see) {
-    if (see) see(steps(), stateRows(columns));
+    if (see) see(steps(), end(), stateRows(columns));
     derivatives.byCoefficients.assign(static_cast<std::size_t>(columns.cols()),
                                       Eigen::MatrixXd::Zero(coefficients_, steps()));
-    const Outcome outcome = sweep_->backward(columns, [&](long long k, Eigen::MatrixXd& l) {
-        Eigen::Index row = 0;
-        for (const Control& control : controls_) {
-            for (Eigen::Index j = 0; j < control.count; ++j, ++row)
-                for (Eigen::Index i = 0; i < l.cols(); ++i)
-                    derivatives.byCoefficients[static_cast<std::size_t>(i)](row, k) = l(control.first + j, i);
-            l.middleRows(control.first, control.count + 1).setZero();
-        }
-        if (see) see(k, stateRows(l));
-    });
+    const Outcome outcome =
+        sweep_->backward(columns, [&](long long k, const State& state, Eigen::MatrixXd& l) {
+            Eigen::Index row = 0;
+            for (const Control& control : controls_) {
+                for (Eigen::Index j = 0; j < control.count; ++j, ++row)
+                    for (Eigen::Index i = 0; i < l.cols(); ++i)
+                        derivatives.byCoefficients[static_cast<std::size_t>(i)](row, k) =
+                            l(control.first + j, i);
+                l.middleRows(control.first, control.count + 1).setZero();
+            }
+            if (see) see(k, stateOf(state), stateRows(l));
+        });
     if (outcome != Outcome::converged) return outcome;
     derivatives.byStart = stateRows(columns);
     derivatives.byNumbers.setZero(static_cast<Eigen::Index>(numbers_.size()), columns.cols());

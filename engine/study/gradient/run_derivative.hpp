@@ -55,8 +55,6 @@ public:
     Outcome run(const Eigen::VectorXd& start, const Eigen::MatrixXd& c, const std::stop_token& stop = {});
     Eigen::VectorXd start() const;
     Eigen::VectorXd end() const { return stateOf(sweep_->end()); }
-    /// At node k of a run of at most BackwardSweep::mostStates steps.
-    Eigen::VectorXd at(long long k) const { return stateOf(sweep_->stateAt(k)); }
     double integral() const;
     double failedAt() const { return sweep_->failedAt(); }
     std::size_t kept() const { return sweep_->kept(); }
@@ -69,8 +67,9 @@ public:
         Eigen::MatrixXd byNumbers;                    ///< (numbers, columns)
         std::vector<Eigen::MatrixXd> byCoefficients;  ///< of each column, as c
     };
-    /// Sees the derivatives by the state at node k, (2 d, columns), from the end to the start.
-    using See = std::function<void(long long k, const Eigen::MatrixXd& byState)>;
+    /// Sees the state (q, p) at node k and the derivatives by it, (2 d, columns), from the end to the start.
+    using See =
+        std::function<void(long long k, const Eigen::VectorXd& state, const Eigen::MatrixXd& byState)>;
     /// After a run() that converged.
     Outcome differentiate(Eigen::MatrixXd columns, Derivatives& derivatives, const See& see = {});
 

@@ -29,6 +29,9 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 using Index = Eigen::Index;
 
+/// Of runs whose controls are sought: each iteration takes many runs.
+constexpr long long mostSteeredSteps = 100'000;
+
 std::vector<std::string> controlsIn(const ResolvedScene& scene, const SteeringRequest& request) {
     std::vector<std::string> known;
     if (const Value* const all = scene.scene.model.find("controls"); all && all->isObject())
@@ -107,11 +110,11 @@ public:
           run_(scene, requestOf(request)),
           cost_(request.of, "--of", run_),
           stop_(std::move(stop)) {
-        if (run_.steps() < 1 || run_.steps() > BackwardSweep::mostStates)
+        if (run_.steps() < 1 || run_.steps() > mostSteeredSteps)
             throw InvalidScene("--scheme",
                                "\"" + run_.scheme() + "\" takes " + std::to_string(run_.steps()) +
                                    " steps, and controls are found for 1 to " +
-                                   std::to_string(BackwardSweep::mostStates),
+                                   std::to_string(mostSteeredSteps),
                                "another step, or another end of the scene");
         for (const std::string& text : request.conditions) conditions_.emplace_back(text, "--end", run_);
         Matrix powers(points_, points_);
@@ -249,9 +252,8 @@ StudyTable statesTable(const ResolvedScene& scene, SteeredRun& steered, const Mi
     weights << 1, least.multipliers;
     if (!steered.evaluate(least.u, J, r)) return table;
     const RunDerivative& run = steered.run();
-    (void)steered.differentiate(weights, gradients, [&](long long k, const Matrix& costate) {
+    (void)steered.differentiate(weights, gradients, [&](long long k, const Vector& x, const Matrix& costate) {
         Value::Array row{run.times()[static_cast<std::size_t>(k)]};
-        const Vector x = run.at(k);
         for (Index i = 0; i < x.size(); ++i) row.emplace_back(x(i));
         for (Index i = 0; i < x.size(); ++i) row.emplace_back(costate(i, 0));
         table.rows.push_back(std::move(row));

@@ -104,6 +104,24 @@ private slots:
         for (const Value::Array& row : answer.states.rows)
             QVERIFY(std::abs(row[4].asNumber() + 6 - 12 * row[0].asNumber()) < 1e-11);
     }
+    /// Of which every 71st state is kept.
+    void longRunsHaveStatesAtAllNodes() {
+        constexpr int steps = 5000;
+        const SteeringAnswer answer =
+            steer(sceneOf("x_t^2/2+u*x", fromRest, 1, 1, steps), {{}, "", "u^2/2", {"x-1", "p_x"}, {}, ""});
+        QVERIFY2(answer.isFound(), answer.problem.c_str());
+        QCOMPARE(answer.states.rows.size(), std::size_t(steps + 1));
+        double place = 0, momentum = 0, costate = 0;
+        for (const Value::Array& row : answer.states.rows) {
+            const double t = row[0].asNumber();
+            place = std::max(place, std::abs(row[1].asNumber() - t * t * (3 - 2 * t)));
+            momentum = std::max(momentum, std::abs(row[2].asNumber() - 6 * t * (1 - t)));
+            costate = std::max(costate, std::abs(row[4].asNumber() + 6 - 12 * t));
+        }
+        qInfo("J - 6 = %.1e; x off by %.1e, p by %.1e, its costate by %.1e", answer.cost - 6, place, momentum,
+              costate);
+        QVERIFY(std::abs(answer.cost - 6) < 1e-6 && place < 1e-7 && momentum < 1e-7 && costate < 1e-6);
+    }
     void forcesDoTheSame() {
         const SteeringAnswer answer = steer(sceneOf("x_t^2/2", fromRest, 1, 2, 8, R"(,"forces":{"x":"u"})"),
                                             {{"u"}, "", "u^2/2", {"x-1", "p_x"}, {}, ""});
