@@ -1,27 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/group/group_invariants.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
+
+#include "engine/core/algebra/dense.hpp"
 
 namespace extremal {
 namespace {
 
 using Square = MatrixGroup::Square;
-constexpr double none = 1e-9;  ///< relative size of a singular value of 0
+constexpr double none = 1e-9;  ///< relative size of an eigenvalue 0 of squares
 
 /// A basis of the null space of the sum of A^T A over what `rows` gives, as columns; each with the largest
 /// entry 1.
 Eigen::MatrixXd nullSpace(const Eigen::MatrixXd& squares) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(squares);
-    const double largest = std::max(solver.eigenvalues().tail(1)(0), 1e-300);
+    const dense::SymmetricEigen<double> eigen = dense::symmetricEigen<double>(squares);
+    const double largest = std::max(eigen.values.tail(1)(0), 1e-300);
     Eigen::Index count = 0;
-    while (count < squares.rows() && solver.eigenvalues()(count) < none * largest) ++count;
-    Eigen::MatrixXd basis = solver.eigenvectors().leftCols(count);
+    while (count < squares.rows() && eigen.values(count) < none * largest) ++count;
+    Eigen::MatrixXd basis = eigen.vectors.leftCols(count);
     for (Eigen::Index k = 0; k < count; ++k) basis.col(k) /= basis.col(k).cwiseAbs().maxCoeff();
     return basis;
 }
@@ -39,7 +37,7 @@ std::vector<Square> invariantsOf(const MatrixGroup::Factor& f, const Condition& 
             const Square image = condition(unit, X);
             A.col(k) = Eigen::Map<const Eigen::VectorXd>(image.data(), size);
         }
-        squares += A.transpose() * A;
+        squares += dense::product<double>(A.transpose(), A);
     }
     const Eigen::MatrixXd basis = nullSpace(squares);
     std::vector<Square> found;
@@ -52,8 +50,8 @@ std::vector<Eigen::VectorXd> vectorsOf(const MatrixGroup::Factor& f, bool fromLe
     Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(f.n, f.n);
     for (const Square& E : f.basis) {
         const Eigen::MatrixXd unit = E / E.norm();
-        squares +=
-            fromLeft ? Eigen::MatrixXd(unit * unit.transpose()) : Eigen::MatrixXd(unit.transpose() * unit);
+        squares += fromLeft ? dense::product<double>(unit, unit.transpose())
+                            : dense::product<double>(unit.transpose(), unit);
     }
     const Eigen::MatrixXd basis = nullSpace(squares);
     std::vector<Eigen::VectorXd> found;
@@ -67,12 +65,15 @@ GroupInvariants::GroupInvariants(const MatrixGroup& group) {
     for (const MatrixGroup::Factor& f : group.factors()) {
         Part part;
         part.factor = f;
-        part.forms = invariantsOf(
-            f, [](const Square& E, const Square& X) -> Square { return E.transpose() * X + X * E; });
-        part.duals = invariantsOf(
-            f, [](const Square& E, const Square& X) -> Square { return E * X + X * E.transpose(); });
-        part.commutant =
-            invariantsOf(f, [](const Square& E, const Square& X) -> Square { return E * X - X * E; });
+        part.forms = invariantsOf(f, [](const Square& E, const Square& X) -> Square {
+            return E.transpose().lazyProduct(X) + X.lazyProduct(E);
+        });
+        part.duals = invariantsOf(f, [](const Square& E, const Square& X) -> Square {
+            return E.lazyProduct(X) + X.lazyProduct(E.transpose());
+        });
+        part.commutant = invariantsOf(f, [](const Square& E, const Square& X) -> Square {
+            return E.lazyProduct(X) - X.lazyProduct(E);
+        });
         part.rows = vectorsOf(f, true);
         part.columns = vectorsOf(f, false);
         part.isSpecial = std::all_of(f.basis.begin(), f.basis.end(),
@@ -137,29 +138,31 @@ void GroupInvariants::linearise(Part& part, int& dimension) {
             A.col(k).segment(at, size) = Eigen::Map<const Eigen::VectorXd>(defect.data(), size);
             at += size;
         };
-        for (const Square& K : part.forms) add(X.transpose() * K + K * X);
-        for (const Square& K : part.duals) add(X * K + K * X.transpose());
-        for (const Square& C : part.commutant) add(X * C - C * X);
+        for (const Square& K : part.forms) add(X.transpose().lazyProduct(K) + K.lazyProduct(X));
+        for (const Square& K : part.duals) add(X.lazyProduct(K) + K.lazyProduct(X.transpose()));
+        for (const Square& C : part.commutant) add(X.lazyProduct(C) - C.lazyProduct(X));
         for (const Eigen::VectorXd& w : part.rows) {
-            A.col(k).segment(at, n) = X.transpose() * w;
+            A.col(k).segment(at, n) = X.transpose().lazyProduct(w);
             at += n;
         }
         for (const Eigen::VectorXd& w : part.columns) {
-            A.col(k).segment(at, n) = X * w;
+            A.col(k).segment(at, n) = X.lazyProduct(w);
             at += n;
         }
         if (part.isSpecial) A(at, k) = X.trace();
     }
-    Eigen::BDCSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const Eigen::VectorXd& values = svd.singularValues();
-    Eigen::VectorXd inverted = Eigen::VectorXd::Zero(values.size());
+    const dense::SymmetricEigen<double> squares =
+        dense::symmetricEigen<double>(dense::product<double>(A.transpose(), A));
+    const Eigen::VectorXd& values = squares.values;
+    Eigen::VectorXd inverted = Eigen::VectorXd::Zero(size);
     int rank = 0;
-    for (Eigen::Index k = 0; k < values.size(); ++k)
-        if (values(k) > none * std::max(values(0), 1e-300)) {
+    for (int k = 0; k < size; ++k)
+        if (values(k) > none * std::max(values(size - 1), 1e-300)) {
             inverted(k) = 1 / values(k);
             ++rank;
         }
-    part.back = svd.matrixV() * inverted.asDiagonal() * svd.matrixU().transpose();
+    const Eigen::MatrixXd back = dense::product<double>(squares.vectors.transpose(), A.transpose());
+    part.back = dense::product<double>(squares.vectors, inverted.asDiagonal() * back);
     dimension += size - rank;
 }
 

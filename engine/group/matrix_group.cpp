@@ -2,13 +2,13 @@
 #include "engine/group/matrix_group.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/group/algebra_series.hpp"
@@ -84,16 +84,16 @@ void MatrixGroup::addFactor(const Definition& definition) {
                                "is zero or not finite, so that the matrices are not a basis",
                                "a matrix of the algebra that the others do not give");
     const Eigen::MatrixXd unit = lengths.cwiseInverse().asDiagonal() * rows;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(unit * unit.transpose());
-    if (gram.eigenvalues()(0) < 1e-12) {
+    const auto gram = dense::symmetricEigen<double>(dense::product<double>(unit, unit.transpose()));
+    if (gram.values(0) < 1e-12) {
         Eigen::Index most = 0;
-        gram.eigenvectors().col(0).cwiseAbs().maxCoeff(&most);
+        gram.vectors.col(0).cwiseAbs().maxCoeff(&most);
         throw InvalidScene(definition.pointer,
                            "is not a basis: the matrices depend on each other linearly (" +
                                basisName(static_cast<std::size_t>(most)) + " is a sum of the others)",
                            "leave it out, or give one that is independent");
     }
-    f.coordinates = Eigen::LLT<Eigen::MatrixXd>(rows * rows.transpose()).solve(rows);
+    f.coordinates = Eigen::LLT<Eigen::MatrixXd>(dense::product<double>(rows, rows.transpose())).solve(rows);
     dimension_ += f.d;
     entries_ += f.n * f.n;
     addBrackets(f, definition.pointer);
@@ -104,8 +104,8 @@ void MatrixGroup::addBrackets(const Factor& f, const std::string& pointer) {
     for (int i = 0; i < f.d; ++i)
         for (int j = i + 1; j < f.d; ++j) {
             const Square &a = f.basis[static_cast<std::size_t>(i)], &b = f.basis[static_cast<std::size_t>(j)];
-            const Square commutator = a * b - b * a;
-            const Eigen::VectorXd c = f.coordinates * rowOf(commutator).transpose();
+            const Square commutator = a.lazyProduct(b) - b.lazyProduct(a);
+            const Eigen::VectorXd c = f.coordinates.lazyProduct(rowOf(commutator).transpose());
             Square rest = commutator;
             double largest = 0;
             for (int k = 0; k < f.d; ++k) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
@@ -153,14 +152,14 @@ void checkRegular(const GroupMechanics& on, const State& initial) {
         throw InvalidScene("/lagrangian", "is not finite, or has no finite derivatives, at the initial data",
                            "another start, or a Lagrangian that has a meaning there");
     const std::vector<std::string> names = velocityNames(*on.group);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(M)};
+    const dense::SymmetricEigen<double> eigen = dense::symmetricEigen<double>(M);
     Eigen::Index least = 0;
-    const double smallest = solver.eigenvalues().cwiseAbs().minCoeff(&least),
-                 largest = solver.eigenvalues().cwiseAbs().maxCoeff();
+    const double smallest = eigen.values.cwiseAbs().minCoeff(&least),
+                 largest = eigen.values.cwiseAbs().maxCoeff();
     if (smallest <= 1e-12 * largest || largest == 0) {
         std::string direction;
         const Eigen::VectorXd null =
-            solver.eigenvectors().col(least) / solver.eigenvectors().col(least).cwiseAbs().maxCoeff();
+            eigen.vectors.col(least) / eigen.vectors.col(least).cwiseAbs().maxCoeff();
         for (int i = 0; i < d; ++i)
             if (std::abs(null(i)) > 1e-6)
                 direction += (direction.empty() ? "" : ", ") + names[static_cast<std::size_t>(i)] + ": " +

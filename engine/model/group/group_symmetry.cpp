@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/group/group_symmetry.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <cmath>
 #include <random>
+
+#include "engine/core/algebra/dense.hpp"
 
 namespace extremal::groups {
 namespace {
@@ -32,10 +32,10 @@ Eigen::MatrixXd echelon(Eigen::MatrixXd columns) {
 
 /// The null space of a matrix A given as A^T A.
 Eigen::MatrixXd nullSpaceOf(const Eigen::MatrixXd& squares, double threshold) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(squares);
+    const dense::SymmetricEigen<double> eigen = dense::symmetricEigen<double>(squares);
     Eigen::Index count = 0;
-    while (count < squares.rows() && solver.eigenvalues()(count) < threshold) ++count;
-    return echelon(solver.eigenvectors().leftCols(count));
+    while (count < squares.rows() && eigen.values(count) < threshold) ++count;
+    return echelon(eigen.vectors.leftCols(count));
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ Eigen::MatrixXd keptDirections(const GroupMechanics& mechanics) {
         const Vector row = back.transpose().lazyProduct(f);
         const double scale = back.cwiseAbs().transpose().lazyProduct(f.cwiseAbs()).norm();
         ++found;
-        if (scale > 0) squares += row * row.transpose() / (scale * scale);
+        if (scale > 0) squares += row.lazyProduct(row.transpose()) / (scale * scale);
     }
     if (found == 0) return Eigen::MatrixXd(d, 0);
     return nullSpaceOf(squares, roundOff * found);
@@ -90,10 +90,10 @@ std::vector<Eigen::MatrixXd> quadraticCasimirs(const MatrixGroup& group) {
                 group.ad(Vector::Unit(whole, f.coordinate + k)).block(f.coordinate, f.coordinate, d, d);
             for (int u = 0; u < size; ++u) {
                 const Eigen::MatrixXd& Q = units[static_cast<std::size_t>(u)];
-                const Eigen::MatrixXd image = ad * Q + Q * ad.transpose();
+                const Eigen::MatrixXd image = ad.lazyProduct(Q) + Q.lazyProduct(ad.transpose());
                 A.col(u) = Eigen::Map<const Eigen::VectorXd>(image.data(), d * d);
             }
-            squares += A.transpose() * A;
+            squares += dense::product<double>(A.transpose(), A);
             largest = std::max(largest, ad.squaredNorm());
         }
         const Eigen::MatrixXd basis = nullSpaceOf(squares, 1e-10 * std::max(largest, 1.0));

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/group/group_system.hpp"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/group/so3.hpp"
 #include "engine/model/casimir_measure.hpp"
 #include "engine/model/group/group_flow.hpp"
@@ -100,7 +99,7 @@ double frequencyAt(const GroupMechanics& on, const double* x) {
     Matrix M(d, d), N(d, d), S(d, d);
     double value = 0;
     on.jet(on.model.get(), at.g, eta.data(), &value, m.data(), f.data(), M.data(), N.data(), S.data());
-    const Matrix ratio = Eigen::PartialPivLU<Matrix>(M).solve(S);
+    const Matrix ratio = dense::solve<double>(M, S);
     const double swinging = std::sqrt(ratio.cwiseAbs().rowwise().sum().maxCoeff());
     return std::isfinite(swinging) ? std::max(turning, swinging) : turning;
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
@@ -125,12 +124,12 @@ void checkRegular(const Spheres& on, const State& initial) {
     std::vector<int> moved;
     for (int k = 0; k < d; ++k)
         if (std::find(m.isotropy.begin(), m.isotropy.end(), k) == m.isotropy.end()) moved.push_back(k);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(M(moved, moved))};
-    const auto sizes = solver.eigenvalues().cwiseAbs();
+    const dense::SymmetricEigen<double> eigen = dense::symmetricEigen<double>(M(moved, moved));
+    const Eigen::VectorXd sizes = eigen.values.cwiseAbs();
     Eigen::Index least = 0;
     if (const double smallest = sizes.minCoeff(&least); smallest <= 1e-12 * sizes.maxCoeff()) {
         Eigen::Index most = 0;
-        solver.eigenvectors().col(least).cwiseAbs().maxCoeff(&most);
+        eigen.vectors.col(least).cwiseAbs().maxCoeff(&most);
         const int k = moved[static_cast<std::size_t>(most)];
         throw InvalidScene("/lagrangian",
                            "is degenerate at the initial data: it has no inertia along a velocity of \"" +

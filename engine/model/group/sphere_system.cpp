@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/group/sphere_system.hpp"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/model/group/group_symmetry.hpp"
@@ -76,7 +75,7 @@ double frequencyAt(const GroupMechanics& on, const double* x) {
         S.row(k).setZero();
     }
     const double turning = on.group->adNorm(at.eta);
-    const Matrix ratio = Eigen::PartialPivLU<Matrix>(M).solve(S);
+    const Matrix ratio = dense::solve<double>(M, S);
     const double swinging = std::sqrt(ratio.cwiseAbs().rowwise().sum().maxCoeff());
     return std::isfinite(swinging) ? std::max(turning, swinging) : turning;
 }
