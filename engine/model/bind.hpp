@@ -10,12 +10,11 @@
 /// q and v are std::array<S, d>.
 #pragma once
 
-#include <Eigen/LU>
-
 #include <array>
 #include <memory>
 #include <vector>
 
+#include "engine/core/algebra/elimination.hpp"
 #include "engine/core/algebra/jet.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/model/node_forces.hpp"
@@ -119,18 +118,20 @@ struct Calls {
         std::array<T, 4 * n * n> h;
         for (int iteration = 0; iteration < 30; ++iteration) {
             jet(p, t, q, v, &value, g.data(), h.data());
-            Eigen::Matrix<T, d, d> mass;
-            Eigen::Matrix<T, d, 1> r;
+            std::array<T, n * n> mass;
+            std::array<T, n> delta;
             for (int i = 0; i < d; ++i) {
-                r(i) = momentum[i] - g[static_cast<std::size_t>(d + i)];
-                for (int j = 0; j < d; ++j) mass(i, j) = h[static_cast<std::size_t>((d + i) * 2 * d + d + j)];
+                delta[static_cast<std::size_t>(i)] = momentum[i] - g[static_cast<std::size_t>(d + i)];
+                for (int j = 0; j < d; ++j)
+                    mass[static_cast<std::size_t>(j * d + i)] =
+                        h[static_cast<std::size_t>((d + i) * 2 * d + d + j)];
             }
-            const Eigen::PartialPivLU<Eigen::Matrix<T, d, d>> lu(mass);
-            const Eigen::Matrix<T, d, 1> delta = lu.solve(r);
+            eliminate(d, mass.data(), delta.data());
             T size(0), scale(0);
             for (int i = 0; i < d; ++i) {
-                v[i] += delta(i);
-                size += abs(delta(i));
+                const T& change = delta[static_cast<std::size_t>(i)];
+                v[i] += change;
+                size += abs(change);
                 scale += abs(v[i]);
             }
             if (!(size < T(1e300))) return false;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/group/typed_group.hpp"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "engine/core/algebra/elimination.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/core/text/indexed.hpp"
@@ -135,8 +134,8 @@ bool velocityAt(const void* p, const double* g, const double* mu, double* eta) {
             M(k, k) = 1;
         }
         if (!rest.allFinite() || !M.allFinite()) return false;
-        const Eigen::PartialPivLU<Matrix> lu(M);
-        const Vector change = lu.solve(rest);
+        Vector change = rest;
+        eliminate(of.d, M.data(), change.data());
         if (!change.allFinite()) return false;
         x += change;
         const double size = change.norm(), scale = x.norm();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/typed/typed_mechanics.hpp"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,8 +9,8 @@
 #include <memory>
 #include <utility>
 
+#include "engine/core/algebra/elimination.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
-#include "engine/core/dimension.hpp"
 #include "engine/model/typed/branches.hpp"
 #include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/node_tape.hpp"
@@ -154,26 +152,13 @@ bool separableVelocity(const void* p, const double&, const double*, const double
 
 /// Solves M x = b in place, M as a lower triangle; of few coordinates, so nothing is allocated.
 bool solveMass(int d, const double* triangle, double* x) {
-    if (d > static_cast<int>(fewCoordinates)) {
-        Eigen::MatrixXd mass(d, d);
-        for (int i = 0; i < d; ++i)
-            for (int j = 0; j <= i; ++j) mass(i, j) = mass(j, i) = *triangle++;
-        Eigen::Map<Eigen::VectorXd> b(x, d);
-        b = mass.partialPivLu().solve(b).eval();
-        return b.allFinite();
-    }
-    return withDimension(d, [&](auto dimension) {
-        constexpr int D = decltype(dimension)::value;
-        constexpr int most = D == Eigen::Dynamic ? static_cast<int>(fewCoordinates) : D;
-        Eigen::Matrix<double, D, D, 0, most, most> mass(d, d);
-        for (int i = 0; i < d; ++i)
-            for (int j = 0; j <= i; ++j) mass(i, j) = mass(j, i) = *triangle++;
-        const Eigen::PartialPivLU<decltype(mass)> lu(mass);
-        Eigen::Map<Eigen::Matrix<double, D, 1, 0, most, 1>> b(x, d);
-        const Eigen::Matrix<double, D, 1, 0, most, 1> solution = lu.solve(b);
-        b = solution;
-        return b.allFinite();
-    });
+    double few[fewCoordinates * fewCoordinates];
+    std::vector<double> many(d > static_cast<int>(fewCoordinates) ? static_cast<std::size_t>(d * d) : 0);
+    double* const mass = many.empty() ? few : many.data();
+    for (int i = 0; i < d; ++i)
+        for (int j = 0; j <= i; ++j) mass[i * d + j] = mass[j * d + i] = *triangle++;
+    eliminate(d, mass, x);
+    return std::all_of(x, x + d, [](double each) { return std::isfinite(each); });
 }
 
 /// v from r = p - L_v at a guess, by one solve with the mass matrix there. Outputs of the tape: L_v, then
