@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/algebra/exact_sum.hpp"
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/integrator/galerkin_step_solve.hpp"
@@ -48,10 +49,8 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         for (int a = 0; a < own; ++a) f.value.col(a) = padded(t.value.col(a));
         f.valueAt = f.slopeAt = Square::Zero(height, rows());
         f.valueAt.topRows(own) = f.value.transpose();
-        f.kineticInverse =
-            Square(t.testDerivative.transpose() * detail::ofKineticEnergy(t).asDiagonal() * t.derivative / h_)
-                .partialPivLu()
-                .inverse();
+        f.kineticInverse = dense::inverse<T>(t.testDerivative.transpose() *
+                                             detail::ofKineticEnergy(t).asDiagonal() * t.derivative / h_);
         functions_.push_back(std::move(f));
         continues_ = continues_ && t.extrapolation.size() > 0;
     }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "engine/core/algebra/lu.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/integrator/node_iteration.hpp"
 #include "engine/solve/fixed_point_policy.hpp"
 #include "engine/solve/newton_policy.hpp"
@@ -70,7 +70,7 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
       isExact_(tolerance <= std::numeric_limits<T>::epsilon()) {
     const Square kinetic =
         table.testDerivative.transpose() * table.weight.asDiagonal() * table.derivative / h;
-    const Square inverse = kinetic.partialPivLu().inverse();
+    const Square inverse = dense::inverse<T>(kinetic);
     const Square moments = h * (table.testValue.transpose() * table.weight.asDiagonal());  // m x n
     const Square toForces = -inverse * moments;                                            // m x n
     const Square G = table.value * toForces;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "engine/core/algebra/lu.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/integrator/node_iteration_build.hpp"
 #include "engine/integrator/velocity_iteration.hpp"
 
@@ -31,7 +31,7 @@ VelocityIteration<T>::VelocityIteration(const Mechanics<T>& mechanics, const Tab
       stride_((n_ + 7) / 8 * 8),
       tolerance_(tolerance),
       isExact_(tolerance <= std::numeric_limits<T>::epsilon()),
-      toY_(table.derivative.partialPivLu().inverse()) {
+      toY_(dense::inverse<T>(table.derivative)) {
     const auto size = static_cast<std::size_t>(stride_), d = static_cast<std::size_t>(d_);
     for (Array* a : {&node_, &b_, &weight_, &times_, &change_}) a->assign(size, T(0));
     for (Array* a : {&mu_, &nu_, &onward_}) a->assign(size * size, T(0));

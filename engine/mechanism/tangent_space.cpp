@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/mechanism/tangent_space.hpp"
 
-#include <Eigen/QR>
-
 #include <vector>
 
 #include "engine/core/algebra/dense.hpp"
@@ -37,8 +35,7 @@ public:
             mechanism_.rateAlong(t, x, v, Eigen::VectorXd::Unit(d, i), rate);
             conditions.topRightCorner(d, n).row(i) += rate.transpose();
         }
-        const Eigen::MatrixXd all = Eigen::HouseholderQR<Eigen::MatrixXd>(conditions).householderQ();
-        return all.rightCols(2 * d - n - g);
+        return dense::qr<double>(conditions).Q.rightCols(2 * d - n - g);
     }
 
 private:

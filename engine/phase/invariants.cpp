@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/phase/invariants.hpp"
 
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <utility>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/algebra/differences.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
@@ -156,10 +155,11 @@ void check(std::vector<Invariant>& all, const System& system, const State& start
     }
     const Eigen::MatrixXd atStart = directionsAt(all, flow, x, start.t);
     if (atStart.size() == 0 || m < 2) return;
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(atStart.leftCols(m));
+    Eigen::VectorXi order;
+    const Eigen::VectorXd pivots = dense::rankPivots(atStart.leftCols(m), order);
     for (Eigen::Index k = 0; k < m; ++k) {
-        if (k < qr.matrixQR().rows() && std::abs(qr.matrixQR()(k, k)) > dependent) continue;
-        const auto which = static_cast<std::size_t>(qr.colsPermutation().indices()(k));
+        if (k < pivots.size() && pivots(k) > dependent) continue;
+        const auto which = static_cast<std::size_t>(order(k));
         throw InvalidScene(
             placeOf(which),
             "depends on the others at the start: " + all[which].name + " has no direction of its own there",

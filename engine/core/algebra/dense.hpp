@@ -70,7 +70,8 @@ SymmetricEigen<T> symmetricEigen(Given<T> A);
 Eigen::VectorXcd eigenvalues(Given<double> A);
 
 /// Magnitudes of the diagonal of R in a QR with column pivoting, descending: the last is near zero where the
-/// columns depend.
+/// columns depend. `order` takes the columns that they belong to.
+Eigen::VectorXd rankPivots(Given<double> A, Eigen::VectorXi& order);
 Eigen::VectorXd rankPivots(Given<double> A);
 /// Of a square matrix, descending.
 Eigen::VectorXd singularValues(Given<double> A);

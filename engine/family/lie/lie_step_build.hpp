@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/action/chain_rule.hpp"
-#include "engine/core/algebra/lu.hpp"
+#include "engine/core/algebra/dense.hpp"
 #include "engine/family/lie/lie_step.hpp"
 #include "engine/family/lie/lie_step_tangent.hpp"
 
@@ -42,7 +42,7 @@ LieStep<T, G>::LieStep(const Mechanics& mechanics, Table<T> table, const T& step
         atPoints_.row(k) =
             Eigen::Map<const Flat>(value.data(), table_.space.size).transpose() * table_.change;
     }
-    fit_ = atPoints_.partialPivLu().inverse();
+    fit_ = dense::inverse<T>(atPoints_);
 }
 
 /// xi_i and xi'_i from Y.

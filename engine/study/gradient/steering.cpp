@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/study/gradient/steering.hpp"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/algebra/interpolant.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
@@ -121,7 +120,7 @@ public:
         for (Index i = 0; i < points_; ++i)
             for (Index j = 0; j < points_; ++j)
                 powers(i, j) = std::pow(rule_.c[static_cast<std::size_t>(i)] - 0.5, static_cast<double>(j));
-        toCoefficients_ = powers.inverse();
+        toCoefficients_ = dense::inverse<double>(powers);
     }
 
     RunDerivative& run() { return run_; }
