@@ -15,6 +15,24 @@ namespace {
 
 bool movesMomentum(HalfMap map) { return map == HalfMap::kickImplicit || map == HalfMap::kickExplicit; }
 
+/// Of a kick, with f' at (q_1, p_1): dp <- dp + s (pdot_q dq + pdot_p dp), where it is implicit with the new
+/// dp on the right; of a drift likewise. `isOwn`: whether the rate of what moves depends on it.
+void multiply(const Eigen::MatrixXd& jacobian, bool isKick, bool isOwn, bool isImplicit, double s,
+              Eigen::Map<Eigen::MatrixXd>& W) {
+    const Eigen::Index d = jacobian.rows() / 2, row = isKick ? d : 0, other = d - row;
+    Eigen::MatrixXd own;
+    auto moved = W.middleRows(row, d);
+    if (isOwn) {
+        own = s * jacobian.block(row, row, d, d);
+        if (!isImplicit) moved += (own * moved).eval();
+    }
+    moved.noalias() += s * jacobian.block(row, other, d, d).lazyProduct(W.middleRows(other, d));
+    if (isImplicit) {
+        own = Eigen::MatrixXd::Identity(d, d) - own;
+        moved = own.partialPivLu().solve(moved).eval();
+    }
+}
+
 template <int D>
 class Partitioned final : public FlowMethod<D>, public SharesForce {
     using Base = FlowMethod<D>;
@@ -142,29 +160,13 @@ private:
         this->q1_ = this->q0_;
         this->p1_ = this->p0_;
         const bool isKnown = takeStages(t, [&](bool isKick, bool isImplicit, double at, double s) {
-            return multiply(isKick, isImplicit, at, s, W);
+            const Eigen::MatrixXd* const jacobian = this->flowJacobian(at, this->q1_, this->p1_);
+            if (jacobian) multiply(*jacobian, isKick, !this->mechanics_.isSeparable, isImplicit, s, W);
+            return jacobian != nullptr;
         });
         this->q1_ = endQ;
         this->p1_ = endP;
         return isKnown;
-    }
-    /// Of a kick, with f' at (q_1, p_1): dp <- dp + s (pdot_q dq + pdot_p dp), where it is implicit with the
-    /// new dp on the right; of a drift likewise.
-    bool multiply(bool isKick, bool isImplicit, double t, double s, typename Base::Columns W) {
-        const int d = this->d(), row = isKick ? d : 0, other = d - row;
-        const Eigen::MatrixXd* const jacobian = this->flowJacobian(t, this->q1_, this->p1_);
-        if (!jacobian) return false;
-        auto moved = W.middleRows(row, d);
-        if (!this->mechanics_.isSeparable) {
-            implicit_ = s * jacobian->block(row, row, d, d);
-            if (!isImplicit) moved += (implicit_ * moved).eval();
-        }
-        moved.noalias() += s * jacobian->block(row, other, d, d).lazyProduct(W.middleRows(other, d));
-        if (isImplicit) {
-            implicit_ = Eigen::MatrixXd::Identity(d, d) - implicit_;
-            moved = implicit_.partialPivLu().solve(moved).eval();
-        }
-        return true;
     }
     void separable(bool isKick, double t, double s) {
         if (isKick) {
@@ -206,7 +208,6 @@ private:
     }
 
     std::vector<PartitionedStage> stages_;
-    Eigen::MatrixXd implicit_;
     Vector dq_, dp_, start_, change_, force_, forceAt_, inverseMass_;
     double forceTime_ = 0;  ///< of force_, where forces depend on time
 };

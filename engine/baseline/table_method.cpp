@@ -29,6 +29,28 @@ struct Coefficients {
                             a.row(last).transpose() == b && aHat.row(last).transpose() == bHat;
     }
     Eigen::Index stages() const { return b.size(); }
+
+    /// The rows of stage i in 1 - h J a, and J.
+    void place(Eigen::Index i, double h, const Eigen::MatrixXd& jacobian, Eigen::MatrixXd& system,
+               Eigen::MatrixXd& slopes) const {
+        const Eigen::Index n = jacobian.rows(), d = n / 2;
+        slopes.middleRows(n * i, n) = jacobian;
+        for (Eigen::Index j = 0; j < stages(); ++j) {
+            auto block = system.block(n * i, n * j, n, n);
+            block.leftCols(d) -= h * a(i, j) * jacobian.leftCols(d);
+            block.rightCols(d) -= h * aHat(i, j) * jacobian.rightCols(d);
+        }
+    }
+    /// W <- M W, from the factors of 1 - h J a and from J.
+    void vary(double h, const Eigen::PartialPivLU<Eigen::MatrixXd>& lu, const Eigen::MatrixXd& slopes,
+              Eigen::Map<Eigen::MatrixXd>& W) const {
+        const Eigen::MatrixXd rates = lu.solve((slopes * W).eval());
+        const Eigen::Index d = W.rows() / 2;
+        for (Eigen::Index i = 0; i < stages(); ++i) {
+            W.topRows(d) += h * b(i) * rates.middleRows(2 * d * i, d);
+            W.bottomRows(d) += h * bHat(i) * rates.middleRows(2 * d * i + d, d);
+        }
+    }
 };
 
 template <int D>
@@ -188,12 +210,7 @@ private:
                 this->report_.outcome = Outcome::singular;
                 return false;
             }
-            slopes_.middleRows(2 * d * i, 2 * d) = *jacobian;
-            for (Eigen::Index j = 0; j < table_.stages(); ++j) {
-                auto block = system_.block(2 * d * i, 2 * d * j, 2 * d, 2 * d);
-                block.leftCols(d) -= this->h() * table_.a(i, j) * jacobian->leftCols(d);
-                block.rightCols(d) -= this->h() * table_.aHat(i, j) * jacobian->rightCols(d);
-            }
+            table_.place(i, this->h(), *jacobian, system_, slopes_);
         }
         lu_.compute(system_);
         return true;
@@ -201,12 +218,7 @@ private:
 
     bool tangent(double t, typename Base::Columns W) override {
         if (!assemble(t)) return false;
-        const int d = this->d();
-        const Eigen::MatrixXd rates = lu_.solve((slopes_ * W).eval());
-        for (Eigen::Index i = 0; i < table_.stages(); ++i) {
-            W.topRows(d) += this->h() * table_.b(i) * rates.middleRows(2 * d * i, d);
-            W.bottomRows(d) += this->h() * table_.bHat(i) * rates.middleRows(2 * d * i + d, d);
-        }
+        table_.vary(this->h(), lu_, slopes_, W);
         return true;
     }
 

@@ -23,6 +23,43 @@
 namespace extremal {
 namespace {
 
+/// A step and the rates at its nodes, of any dimension.
+struct StepAt {
+    using Vector = Eigen::Map<const Eigen::VectorXd>;
+    using Nodes = Eigen::Map<const Eigen::MatrixXd>;
+    double start, h;
+    Vector q0, p0;
+    Nodes K, F;
+};
+
+/// The curve inside a step.
+void insideOf(const StepAt& step, const PhaseCell& cell, double tau, double* x) {
+    std::vector<double> value(static_cast<std::size_t>(cell.table.space.size)), slope(value.size());
+    cell.table.space.evaluate(tau, value, slope);
+    const Eigen::VectorXd rates =
+        (StepAt::Vector(value.data(), cell.table.space.size).transpose() * cell.table.change * cell.ofRates)
+            .transpose();
+    const std::vector<double> shares = weightsUpTo(cell.table, tau);
+    const StepAt::Vector forces(shares.data(), cell.nodes());
+    const Eigen::Index d = step.q0.size();
+    Eigen::Map<Eigen::VectorXd>(x, d) = step.q0 + step.h * step.K.transpose().lazyProduct(rates);
+    Eigen::Map<Eigen::VectorXd>(x + d, d) = step.p0 + step.h * step.F.transpose().lazyProduct(forces);
+}
+
+double actionOf(const StepAt& step, const PhaseCell& cell, const PhaseMechanics& H) {
+    const Eigen::MatrixXd rates = cell.slope * (cell.ofRates * step.K);
+    double action = 0;
+    Eigen::VectorXd q, p;
+    for (int i = 0; i < cell.nodes(); ++i) {
+        q = step.q0 + step.h * step.K.transpose().lazyProduct(cell.A.row(i).transpose());
+        p = cell.fromStart(i) * step.p0 + step.h * step.F.transpose().lazyProduct(cell.B.row(i).transpose());
+        const double energy =
+            H.energy(H.model.get(), step.start + cell.place(i) * step.h, q.data(), p.data());
+        action += step.h * cell.weight(i) * (p.dot(rates.row(i).transpose()) - energy);
+    }
+    return action;
+}
+
 template <int D>
 class PhaseStep final : public Integrator {
     using Vector = Eigen::Matrix<double, D, 1>;
@@ -92,16 +129,7 @@ public:
             p = tau <= 0 ? p0_ : p1_;
             return;
         }
-        std::vector<double> value(static_cast<std::size_t>(cell_.table.space.size)), slope(value.size());
-        cell_.table.space.evaluate(tau, value, slope);
-        const Eigen::VectorXd rates =
-            (Eigen::Map<const Eigen::VectorXd>(value.data(), cell_.table.space.size).transpose() *
-             cell_.table.change * cell_.ofRates)
-                .transpose();
-        const std::vector<double> shares = weightsUpTo(cell_.table, tau);
-        const Eigen::Map<const Eigen::VectorXd> forces(shares.data(), cell_.nodes());
-        q = q0_ + h_ * K_.transpose().lazyProduct(rates);
-        p = p0_ + h_ * F_.transpose().lazyProduct(forces);
+        insideOf(here(), cell_, tau, x.data());
     }
 
     std::size_t tangentSize() const override { return static_cast<std::size_t>(2 * d()); }
@@ -115,17 +143,7 @@ public:
         static const Quantity action{"action", "", "S", ""};
         return {&action, 1};
     }
-    void measure(const State&, double* values) const override {
-        const Nodes rates = cell_.slope * (cell_.ofRates * K_);
-        values[0] = 0;
-        Vector q = q0_, p = p0_;
-        for (int i = 0; i < cell_.nodes(); ++i) {
-            q = q0_ + h_ * (cell_.A.row(i) * K_).transpose();
-            p = cell_.fromStart(i) * p0_ + h_ * (cell_.B.row(i) * F_).transpose();
-            const double energy = H_.energy(H_.model.get(), start_ + cell_.place(i) * h_, q.data(), p.data());
-            values[0] += h_ * cell_.weight(i) * (p.dot(rates.row(i).transpose()) - energy);
-        }
-    }
+    void measure(const State&, double* values) const override { values[0] = actionOf(here(), cell_, H_); }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<PhaseStep>(*this); }
     bool checkpoint(Archive& archive) override {
@@ -136,6 +154,14 @@ public:
 
 private:
     int d() const { return H_.dimension; }
+    StepAt here() const {
+        return {start_,
+                h_,
+                {q0_.data(), d()},
+                {p0_.data(), d()},
+                {K_.data(), K_.rows(), d()},
+                {F_.data(), F_.rows(), d()}};
+    }
 
     Outcome solve(bool isContinued) {
         if (policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
