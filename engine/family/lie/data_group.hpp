@@ -4,15 +4,25 @@
 ///
 /// Where a force has taken the impulse W (a momentum at the base point) the momenta at the ends satisfy
 /// J_end = J_base - Ad_{g_base^-1}^T W, and in the body mu = Ad_g^T J.
+///
+/// Points on spheres (model/group/spheres.hpp) are rotations from a frame at each point, in the chart of the
+/// symmetric space. With xi normal to e_3 in the frame, x = R exp(hat xi) e_3 covers the sphere around R e_3,
+/// and does so by shortest lines: S^2 = SO(3)/SO(2) with so(3) = h + m, [m, m] in h, xi in m. The equations
+/// along h are xi_3 = 0; those along m are the ones of the group, since momenta have no part along h. A
+/// variation by a rotation about the base point is one that the equations along m cover, so that nothing is
+/// lost. Of a pose g is the frames, and J is pi.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "engine/group/algebra_series.hpp"
 #include "engine/group/group_invariants.hpp"
 #include "engine/model/group/group_mechanics.hpp"
+#include "engine/model/group/spheres.hpp"
 
 namespace extremal {
 
@@ -165,7 +175,11 @@ public:
     using Chart = DataChart<K>;
 
     explicit DataGroup(const GroupMechanics& mechanics)
-        : group_(mechanics.group), invariants_(mechanics.invariants) {}
+        : group_(mechanics.group), invariants_(mechanics.invariants), isotropy_(mechanics.isotropy) {}
+
+    /// Unknowns that stay 0.
+    const std::vector<int>& isotropy() const { return isotropy_; }
+    bool isOnSpheres() const { return !isotropy_.empty(); }
 
     int dimension() const { return group_->dimension(); }
     const MatrixGroup& group() const { return *group_; }
@@ -175,10 +189,21 @@ public:
     }
 
     GroupPose read(const double* x) const {
+        if (isOnSpheres()) {
+            GroupPose pose{Element(group_->entries()),
+                           Eigen::Map<const Vector>(x + dimension(), dimension())};
+            for (int k = 0; k < dimension(); k += 3) spheres::frameAt(x + k, pose.g.data() + 3 * k);
+            return pose;
+        }
         return {Eigen::Map<const Element>(x, group_->entries()),
                 Eigen::Map<const Vector>(x + group_->entries() + dimension(), dimension())};
     }
     void write(const GroupPose& p, double* x) const {
+        if (isOnSpheres()) {
+            spheres::pointsOf(p.g, x);
+            Eigen::Map<Vector>(x + dimension(), dimension()) = p.J;
+            return;
+        }
         Eigen::Map<Element>(x, group_->entries()) = p.g;
         Eigen::Map<Vector>(x + group_->entries(), dimension()) = bodyMomentum(p.g, p);
         Eigen::Map<Vector>(x + group_->entries() + dimension(), dimension()) = p.J;
@@ -203,12 +228,25 @@ public:
     /// Takes g back to the group, from which round-off takes it away by 1e-14 in so many steps.
     void settle(GroupPose& p, long long node) const {
         constexpr long long often = 100;
+        if (isOnSpheres()) return spheres::removeAlongPoints(p.g, p.J);
         if (node % often == often - 1) invariants_->cure(p.g);
     }
     /// The series have no digits left.
     bool isBeyond(const Vector& xi) const { return !(group_->adNorm(xi) <= 5); }
     Vector coordinates(const GroupPose& base, const GroupPose& place, const Vector& near) const {
         return group_->logarithm(group_->product(group_->inverse(base.g), place.g), near);
+    }
+
+    /// The xi without isotropy whose rotation carries e_3 where g carries it, on spheres.
+    Vector horizontal(const Element& g) const {
+        Vector xi = Vector::Zero(dimension());
+        for (int k = 0; k < dimension(); k += 3) {
+            const double x = g(3 * k + 2), y = g(3 * k + 5), z = g(3 * k + 8), sine = std::hypot(x, y);
+            const double ratio = sine > 0 ? std::atan2(sine, z) / sine : 1;
+            xi(k) = -ratio * y;
+            xi(k + 1) = ratio * x;
+        }
+        return xi;
     }
 
     GroupPose place(const GroupPose& p, const Element& g, const Vector& xi) const {
@@ -229,6 +267,7 @@ private:
     }
     std::shared_ptr<const MatrixGroup> group_;
     std::shared_ptr<const GroupInvariants> invariants_;
+    std::vector<int> isotropy_;
 };
 
 }  // namespace extremal

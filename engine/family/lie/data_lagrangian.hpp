@@ -151,6 +151,19 @@ public:
     template <class Columns>
     void curve(const GroupPose& known, const Vector& mu, const std::vector<double>& times, double step,
                bool isAdjoint, Columns& points) {
+        curveInGroup(known, mu, times, step, isAdjoint && !group_.isOnSpheres(), points);
+        if (group_.isOnSpheres()) putOnSpheres(isAdjoint, static_cast<Eigen::Index>(times.size()), points);
+    }
+    /// False where there is no motion at the start: in a singularity.
+    bool isRateFinite() const { return isFound_; }
+
+private:
+    struct Move {
+        Vector xi, mu;
+    };
+    template <class Columns>
+    void curveInGroup(const GroupPose& known, const Vector& mu, const std::vector<double>& times, double step,
+                      bool isAdjoint, Columns& points) {
         const auto count = static_cast<int>(times.size());
         start_ = known.g;
         isFound_ = true;
@@ -173,13 +186,23 @@ public:
                 g.logarithm(g.product(g.exponential(-last), g.exponential(other)), Vector(other - last));
         }
     }
-    /// False where there is no motion at the start: in a singularity.
-    bool isRateFinite() const { return isFound_; }
-
-private:
-    struct Move {
-        Vector xi, mu;
-    };
+    /// The guess of the group, seen on the spheres: the frame at its end has turned about the point.
+    template <class Columns>
+    void putOnSpheres(bool isAdjoint, Eigen::Index count, Columns& points) {
+        const MatrixGroup& group = group_.group();
+        if (!isAdjoint) {
+            for (Eigen::Index k = 0; k < count; ++k)
+                points.col(k) = group_.horizontal(group.exponential(points.col(k)));
+            return;
+        }
+        // The base is where the curve ends, and its frame is that of the known end carried there.
+        guessed_ = points;
+        const Vector back = -group_.horizontal(group.exponential(guessed_.col(count - 1)));
+        for (Eigen::Index k = 0; k + 1 < count; ++k)
+            points.col(k) = group_.horizontal(
+                group.product(group.exponential(back), group.exponential(guessed_.col(count - 2 - k))));
+        points.col(count - 1) = back;
+    }
     Move rate(const Move& at) {
         const MatrixGroup& group = group_.group();
         Vector eta(at.mu.size()), m(at.mu.size()), f = Vector::Zero(at.mu.size());
@@ -205,6 +228,7 @@ private:
     GroupMechanics mechanics_;
     MatrixGroup::Entries start_;
     std::vector<Vector> xi_;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic> guessed_;
     bool isFound_ = true;
 };
 

@@ -6,7 +6,6 @@
 #include "engine/core/memo_cache.hpp"
 #include "engine/family/lie/data_lagrangian.hpp"
 #include "engine/family/lie/lie_step_build.hpp"
-#include "engine/family/lie/sphere_group.hpp"
 #include "engine/integrator/condensed.hpp"
 #include "engine/model/group/lie_group.hpp"
 #include "engine/space/polynomial.hpp"
@@ -16,7 +15,6 @@ namespace extremal {
 template class LieStep<double, RotationGroup<double>>;
 template class LieStep<double, MotionGroup<double>>;
 template class LieStep<double, DataGroup>;
-template class LieStep<double, SphereGroup>;
 
 namespace {
 
@@ -66,7 +64,8 @@ public:
     }
 
     std::size_t tangentSize() const override {
-        if constexpr (requires { step_.group().isotropy(); }) return 0;
+        if constexpr (requires { step_.group().isotropy(); })
+            if (step_.group().isOnSpheres()) return 0;
         return 2 * static_cast<std::size_t>(step_.group().dimension());
     }
     std::string tangentProblem() const override {
@@ -118,8 +117,8 @@ std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discre
         return std::make_unique<Lie<DataGroup>>(*group->mechanics, table, step, isReduced, isSymmetrised,
                                                 policy);
     if (const Spheres* const spheres = system.parts.find<Spheres>())
-        return std::make_unique<Lie<SphereGroup>>(*spheres->mechanics, table, step, isReduced, isSymmetrised,
-                                                  policy);
+        return std::make_unique<Lie<DataGroup>>(*spheres->mechanics, table, step, isReduced, isSymmetrised,
+                                                policy);
     const BodyMechanics<double>& body = system.body();
     if (body.dimension == 3)
         return std::make_unique<Lie<RotationGroup<double>>>(body, table, step, isReduced, isSymmetrised,

@@ -22,8 +22,7 @@
 ///
 /// Newton with the Jacobian of the predicted curve, kept while it contracts well, to round-off.
 /// T: scalar; G, a policy: RotationGroup<T> or MotionGroup<T> (lie_groups.hpp), or DataGroup
-/// (data_group.hpp), whose dimension is known when it runs and whose momenta may depend on g, or SphereGroup
-/// (sphere_group.hpp). It brings its
+/// (data_group.hpp), whose dimension is known when it runs and whose momenta may depend on g. It brings its
 /// Lagrangian (ChartLagrangian<T, G>) and its guess (StepGuess<T, G>). All buffers are allocated in the
 /// constructor.
 #pragma once
@@ -84,7 +83,7 @@ private:
     using Square = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
     using Flat = Eigen::Matrix<T, Eigen::Dynamic, 1>;
     using Lagrangian = ChartLagrangian<T, G>;
-    /// Of a space on which the group acts: equations xi_k = 0 in place of some (sphere_group.hpp).
+    /// Of a space on which the group acts: equations xi_k = 0 in place of some (data_group.hpp).
     static constexpr bool hasIsotropy = requires(const G& group) { group.isotropy(); };
     int m() const { return table_.unknowns(); }
     int d() const {

@@ -5,7 +5,6 @@
 #include "engine/family/lie/data_lagrangian.hpp"
 #include "engine/family/lie/lie.hpp"
 #include "engine/family/lie/lie_guess.hpp"
-#include "engine/family/lie/sphere_group.hpp"
 #include "engine/family/step_equations.hpp"
 #include "engine/model/group/lie_group.hpp"
 
@@ -50,7 +49,7 @@ LocalCoordinates onSpheres(const GroupMechanics& mechanics, const State& start) 
         Mechanics<double> whole;
         std::vector<int> free;
     };
-    LocalCoordinates local = inChart<SphereGroup>(mechanics, start);
+    LocalCoordinates local = inChart<DataGroup>(mechanics, start);
     std::vector<int> free;
     for (int k = 0; k < mechanics.dimension(); ++k)
         if (std::find(mechanics.isotropy.begin(), mechanics.isotropy.end(), k) == mechanics.isotropy.end())
