@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Sums over the nodes of a step: every shape of tiles gives the bits of plain loops in the order of the
-/// terms.
+/// terms. And eliminations of few unknowns.
 #include <QTest>
 
+#include <cmath>
 #include <random>
 #include <vector>
 
+#include "engine/core/algebra/elimination.hpp"
 #include "engine/core/algebra/small_product.hpp"
 #include "tests/tools/test.hpp"
 
@@ -54,6 +56,23 @@ private slots:
         nodeSums().sumOfTwo({A.data(), a.data(), B.data(), b.data(), 8, 5, 2, c.data()});
         QCOMPARE(c[3], 1.25);
         QCOMPARE(c[4], 0.0);
+    }
+    void eliminationFindsWhatTheMatrixWasAppliedTo() {
+        std::mt19937_64 generator(11);
+        for (const int n : {1, 2, 3, 5, 20}) {
+            std::vector<double> A = numbers(n * n, generator), b(static_cast<std::size_t>(n), 0.0);
+            A[0] = n > 1 ? 0 : 2;  // no pivot without an exchange
+            const std::vector<double> x = numbers(n, generator);
+            for (int j = 0; j < n; ++j)
+                for (int i = 0; i < n; ++i)
+                    b[static_cast<std::size_t>(i)] +=
+                        A[static_cast<std::size_t>(j * n + i)] * x[static_cast<std::size_t>(j)];
+            eliminate(n, A.data(), b.data());
+            for (std::size_t i = 0; i < x.size(); ++i) QVERIFY(std::abs(b[i] - x[i]) < 1e-11);
+        }
+        double singular[]{1, 2, 2, 4}, b[]{1, 1};
+        eliminate(2, singular, b);
+        QVERIFY(!std::isfinite(b[0]) && !std::isfinite(b[1]));
     }
 };
 
