@@ -38,8 +38,11 @@ public:
         call(endTime_, q1_, p1_, dq1, dp1);
         const double a = (1 + 2 * tau) * (1 - tau) * (1 - tau), b = tau * (1 - tau) * (1 - tau) * h;
         const double c = tau * tau * (3 - 2 * tau), e = tau * tau * (tau - 1) * h;
-        View(x.data(), d()) = a * q0_ + b * dq0 + c * q1_ + e * dq1;
-        View(x.data() + d(), d()) = a * p0_ + b * dp0 + c * p1_ + e * dp1;
+        double *const q = x.data(), *const p = q + d();
+        for (int k = 0; k < d(); ++k) {
+            q[k] = a * q0_(k) + b * dq0(k) + c * q1_(k) + e * dq1(k);
+            p[k] = a * p0_(k) + b * dp0(k) + c * p1_(k) + e * dp1(k);
+        }
     }
 
     double stepSize() const final { return h_; }
