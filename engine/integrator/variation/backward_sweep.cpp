@@ -30,24 +30,38 @@ Outcome BackwardSweep::step(State& state, long long k) {
     return isFinite ? Outcome::converged : Outcome::notFinite;
 }
 
+BackwardSweep::Node BackwardSweep::nodeAt(const State& state) {
+    Archive archive;
+    const bool isKept = integrator_->checkpoint(archive);
+    return {state, isKept ? std::optional(archive.bytes()) : std::nullopt};
+}
+
+State BackwardSweep::returnTo(const Node& node) {
+    State state = node.state;
+    integrator_->begin(state);
+    if (!node.memory) return state;
+    Archive archive(*node.memory);
+    integrator_->checkpoint(archive);
+    return node.state;
+}
+
 Outcome BackwardSweep::forward(const State& start) {
     marks_.clear();
     segment_.clear();
     end_ = start;
     integrator_->begin(end_);
     for (long long k = 0; k < steps_.count; ++k) {
-        if (k % length_ == 0) marks_.push_back(end_);
+        if (k % length_ == 0) marks_.push_back(nodeAt(end_));
         if (const Outcome outcome = step(end_, k); outcome != Outcome::converged) return outcome;
     }
     return Outcome::converged;
 }
 
-Outcome BackwardSweep::again(const State& before, const State& after, long long k) {
+Outcome BackwardSweep::again(const Node& before, const State& after, long long k) {
     constexpr double same = 1e-6;
-    at_ = before;
-    integrator_->begin(at_);
+    at_ = returnTo(before);
     if (const Outcome outcome = step(at_, k); outcome != Outcome::converged) return outcome;
-    // Iterations end at different round-off; another root of the equations of a step is far away.
+    // Without its memory a scheme ends at other round-off; another root of its equations is far away.
     double largest = 0, apart = 0;
     for (std::size_t i = 0; i < at_.x.size(); ++i) {
         largest = std::max(largest, std::abs(after.x[i]));
@@ -64,24 +78,23 @@ Outcome BackwardSweep::backward(Eigen::MatrixXd& l, const Receive& receive) {
         segment_.clear();
         segment_.push_back(marks_[static_cast<std::size_t>(mark)]);
         if (count > 1) {
-            State state = segment_.front();
-            integrator_->begin(state);
+            State state = returnTo(segment_.front());
             for (long long k = first; k + 1 < first + count; ++k) {
                 if (const Outcome outcome = step(state, k); outcome != Outcome::converged) return outcome;
-                segment_.push_back(state);
+                segment_.push_back(nodeAt(state));
             }
         }
         for (long long k = first + count - 1; k >= first; --k) {
-            const State& before = segment_[static_cast<std::size_t>(k - first)];
+            const Node& before = segment_[static_cast<std::size_t>(k - first)];
             if (const Outcome outcome = again(before, *after, k); outcome != Outcome::converged)
                 return outcome;
             if (!applyTransposed(*integrator_, {l.data(), static_cast<std::size_t>(l.size())}) ||
                 !l.allFinite())
                 return Outcome::refused;
-            if (receive) receive(k, before, l);
-            after = &before;
+            if (receive) receive(k, before.state, l);
+            after = &before.state;
         }
-        next = segment_.front();
+        next = segment_.front().state;
         after = &next;
     }
     return Outcome::converged;

@@ -8,15 +8,18 @@
 /// has its derivative in the entries of l_k, which are then cleared.
 ///
 /// The tangent map of a step is known after the step alone, and so each is taken once more, from the state
-/// before it. Up to mostStates states are kept; of longer runs every sqrt(N)-th, and the states between are
-/// computed again segment by segment: memory grows like 2 sqrt(N) states, and the run is taken three times.
+/// before it and with what the scheme remembered there, so that it has the same bits. Up to mostStates states
+/// are kept; of longer runs every sqrt(N)-th, and the states between are computed again segment by segment:
+/// memory grows like 2 sqrt(N) states, and the run is taken three times.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "engine/integrator/integrator.hpp"
@@ -52,16 +55,23 @@ public:
     std::size_t kept() const { return marks_.size() + segment_.size(); }
 
 private:
+    /// A state with what the scheme remembers there; nothing where it keeps that to itself.
+    struct Node {
+        State state;
+        std::optional<std::string> memory;
+    };
+    Node nodeAt(const State& state);
+    State returnTo(const Node& node);
     Outcome step(State& state, long long k);
     /// Step k from `before` as it was, to a state that is to be `after`.
-    Outcome again(const State& before, const State& after, long long k);
+    Outcome again(const Node& before, const State& after, long long k);
 
     std::unique_ptr<Integrator> integrator_;
     Steps steps_;
     Prepare prepare_;
-    long long length_;            ///< of a segment
-    std::vector<State> marks_;    ///< at starts of segments
-    std::vector<State> segment_;  ///< states of one of them
+    long long length_;           ///< of a segment
+    std::vector<Node> marks_;    ///< at starts of segments
+    std::vector<Node> segment_;  ///< of one of them
     State end_, at_;
     double failedAt_ = 0;
 };

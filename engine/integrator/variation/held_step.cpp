@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/integrator/shared_force.hpp"
 #include "engine/integrator/variation/hessian_pull.hpp"
 #include "engine/integrator/variation/transposed_step.hpp"
 
@@ -16,6 +17,8 @@ public:
     HeldStep(std::unique_ptr<Integrator> scheme, HeldCoordinates held, std::optional<std::size_t> integral)
         : scheme_(std::move(scheme)),
           nodes_(dynamic_cast<TransposedStep*>(scheme_.get())),
+          sharing_(dynamic_cast<SharesForce*>(scheme_.get())),
+          unmoved_(sharing_ ? scheme_->clone() : nullptr),
           held_(std::move(held)),
           integral_(integral),
           pull_(held_.whole(), held_.wholeForce(), held_.held()),
@@ -38,6 +41,13 @@ public:
         state.memory.clear();
         read(state);
         scheme_->begin(inner_);
+    }
+    bool checkpoint(Archive& archive) override {
+        const std::span<double> held = held_.values();
+        std::vector<double> values(held.begin(), held.end());
+        archive(values);
+        std::copy(values.begin(), values.end(), held.begin());
+        return scheme_->checkpoint(archive);
     }
     StepReport advance(State& state, double until) override {
         read(state);
@@ -91,8 +101,11 @@ private:
         inner_.t = state.t;
         inner_.node = state.node;
         std::copy_n(state.x.data(), d_, inner_.x.data());
-        std::copy_n(state.x.data() + d_, u_, held_.values().data());
         std::copy_n(state.x.data() + d_ + u_, d_, inner_.x.data() + d_);
+        if (std::equal(held_.values().data(), held_.values().data() + u_, state.x.data() + d_)) return;
+        std::copy_n(state.x.data() + d_, u_, held_.values().data());
+        // Its last force was that of other numbers.
+        if (sharing_) sharing_->takeForce(dynamic_cast<const SharesForce&>(*unmoved_));
     }
     /// sum_i w_i L_u(i), of the one u.
     double integral() {
@@ -111,6 +124,8 @@ private:
 
     std::unique_ptr<Integrator> scheme_;
     TransposedStep* nodes_;
+    SharesForce* sharing_;
+    std::unique_ptr<Integrator> unmoved_;  ///< with no last force; null where it keeps none
     HeldCoordinates held_;
     std::optional<std::size_t> integral_;
     HessianPull pull_;

@@ -9,6 +9,7 @@
 
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/gradient/gradient.hpp"
+#include "engine/study/gradient/run_derivative.hpp"
 #include "tests/tools/pointer_of.hpp"
 #include "tests/tools/test.hpp"
 
@@ -50,6 +51,44 @@ double differenced(const std::string& text, const std::string& pointer, double m
 class GradientTest : public QObject {
     Q_OBJECT
 private slots:
+    /// Steps that begin with the force at the end of the last one: it was another control's. Against
+    /// differences of the run, with controls that jump from step to step.
+    void controlsThatJump_data() {
+        QTest::addColumn<QString>("scheme");
+        for (const char* scheme : {"stormer-verlet", "galerkin-lobatto-1", "galerkin-lobatto-3"})
+            QTest::newRow(scheme) << scheme;
+    }
+    void controlsThatJump() {
+        QFETCH(QString, scheme);
+        const std::string kind = scheme == "stormer-verlet" ? "baseline" : "scheme";
+        const ResolvedScene scene = sceneOf(textOf(
+            R"({"type":"lagrangian","coordinates":["x"],"lagrangian":"x_t^2/2+cos(x)+u*x","controls":{"u":"0"}})",
+            start, "1", "{\"" + kind + "\":\"" + scheme.toStdString() + "\",\"step\":0.1}"));
+        RunDerivative run(scene, {.controls = {{"u", 2}}});
+        Eigen::MatrixXd c(2, run.steps());
+        for (Eigen::Index k = 0; k < c.cols(); ++k)
+            c.col(k) << std::cos(3.0 * static_cast<double>(k)), std::sin(5.0 * static_cast<double>(k));
+        const auto endOf = [&](const Eigen::MatrixXd& at) {
+            if (run.run(run.start(), at) != Outcome::converged) qFatal("no run");
+            return run.end()(0);
+        };
+        constexpr double delta = 1e-3, weights[] = {45, -9, 1};
+        Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(c.rows(), c.cols());
+        for (Eigen::Index i = 0; i < c.size(); ++i)
+            for (int k = 1; k <= 3; ++k)
+                for (const int side : {1, -1}) {
+                    Eigen::MatrixXd moved = c;
+                    moved(i) += side * k * delta;
+                    differences(i) += side * weights[k - 1] * endOf(moved) / (60 * delta);
+                }
+        endOf(c);
+        RunDerivative::Derivatives by;
+        QVERIFY(run.differentiate(run.columnOf(Eigen::Vector2d(1, 0), 0), by) == Outcome::converged);
+        const double apart = (by.byCoefficients.front() - differences).cwiseAbs().maxCoeff();
+        qInfo("%.1e of %.2g", apart, differences.cwiseAbs().maxCoeff());
+        QVERIFY(apart < 1e-11);
+    }
+
     /// Of x = cos(w t) int x^2 dt = T/2 + sin(2 w T)/(4 w), and its derivative by w.
     void integralsHaveTheOrderOfTheScheme_data() {
         QTest::addColumn<int>("degree");
