@@ -13,6 +13,7 @@
 #include "engine/mechanism/mechanism_start.hpp"
 #include "engine/model/first_order/one_form.hpp"
 #include "engine/model/parts/constraint.hpp"
+#include "engine/model/spins/spins.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/observe/catalog.hpp"
 #include "tests/laws/bodies.hpp"
@@ -143,7 +144,9 @@ public:
             what = "energy";
         }
         const auto condition = what.find(" if H is constant");
-        const bool isKnown = what == "momentum" || what == "energy" || what == "quadratic invariants";
+        // Sums of spins are measured, and have no function of their own.
+        const bool isKnown = (what == "momentum" && !on.system.parts.find<Spins>()) || what == "energy" ||
+                             what == "quadratic invariants";
         if (!on.isAutonomous && (condition != std::string::npos || (isKnown && what != "momentum"))) return;
         if (condition != std::string::npos) what.erase(condition);
         if (isKnown) {

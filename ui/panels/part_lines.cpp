@@ -10,7 +10,6 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
-#include <set>
 
 #include "engine/core/text/expression.hpp"
 #include "ui/base/card.hpp"
@@ -83,35 +82,6 @@ Value memberFrom(const std::string& text) {
     bool isNumber = false;
     const double number = QString::fromStdString(text).toDouble(&isNumber);
     return isNumber ? Value(number) : Value(text);
-}
-
-/// Columns that are named after a line, "reaction.rod" and "reaction.rod.force", by its new name.
-void renameColumns(const Value& value, const std::string& pointer, const std::string& from,
-                   const std::string& to, std::vector<Edit>& edits) {
-    if (value.isString()) {
-        const std::string& text = value.asString();
-        const auto dot = text.find('.');
-        const auto end = dot == std::string::npos ? dot : std::min(text.find('.', dot + 1), text.size());
-        if (dot != std::string::npos && text.substr(dot + 1, end - dot - 1) == from)
-            edits.push_back({pointer, text.substr(0, dot + 1) + to + text.substr(end)});
-    } else if (value.isArray()) {
-        for (std::size_t i = 0; i < value.asArray().size(); ++i)
-            renameColumns(value.asArray()[i], pointer + "/" + std::to_string(i), from, to, edits);
-    } else if (value.isObject()) {
-        for (const auto& [key, member] : value.asObject())
-            renameColumns(member, pointer + "/" + key, from, to, edits);
-    }
-}
-
-/// The edits without the plots and columns in which these problems are.
-std::vector<Edit> withoutRefused(std::vector<Edit> edits, const std::vector<Problem>& problems) {
-    std::set<std::string, std::greater<>> places;  // from the end, so that indices stay what they are
-    for (const Problem& problem : problems)
-        for (const char* part : {"/observe/", "/views/"})
-            if (problem.pointer.starts_with(part))
-                places.insert(problem.pointer.substr(0, problem.pointer.find('/', std::string(part).size())));
-    for (const std::string& place : places) edits.push_back({place, std::nullopt});
-    return edits;
 }
 
 }  // namespace

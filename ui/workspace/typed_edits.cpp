@@ -2,7 +2,9 @@
 #include "ui/workspace/typed_edits.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <set>
 
 #include "engine/core/text/expression.hpp"
 #include "ui/workspace/tex_formula.hpp"
@@ -308,6 +310,33 @@ std::vector<Edit> editsForNewCoordinates(const Value& document) {
     if (kind.newPart)
         edits.push_back({std::string("/model/") + kind.newPart + "/" + written(kind.newPartName),
                          written(kind.newPartFormula)});
+    return edits;
+}
+
+void renameColumns(const Value& value, const std::string& pointer, const std::string& from,
+                   const std::string& to, std::vector<Edit>& edits) {
+    if (value.isString()) {
+        const std::string& text = value.asString();
+        const auto dot = text.find('.');
+        const auto end = dot == std::string::npos ? dot : std::min(text.find('.', dot + 1), text.size());
+        if (dot != std::string::npos && text.substr(dot + 1, end - dot - 1) == from)
+            edits.push_back({pointer, text.substr(0, dot + 1) + to + text.substr(end)});
+    } else if (value.isArray()) {
+        for (std::size_t i = 0; i < value.asArray().size(); ++i)
+            renameColumns(value.asArray()[i], pointer + "/" + std::to_string(i), from, to, edits);
+    } else if (value.isObject()) {
+        for (const auto& [key, member] : value.asObject())
+            renameColumns(member, pointer + "/" + key, from, to, edits);
+    }
+}
+
+std::vector<Edit> withoutRefused(std::vector<Edit> edits, const std::vector<Problem>& problems) {
+    std::set<std::string, std::greater<>> places;  // from the end, so that indices stay what they are
+    for (const Problem& problem : problems)
+        for (const char* part : {"/observe/", "/views/"})
+            if (problem.pointer.starts_with(part))
+                places.insert(problem.pointer.substr(0, problem.pointer.find('/', std::string(part).size())));
+    for (const std::string& place : places) edits.push_back({place, std::nullopt});
     return edits;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/problem.hpp"
 #include "engine/core/value.hpp"
 #include "engine/model/typed/formula.hpp"
 #include "ui/workspace/document.hpp"
@@ -46,5 +47,11 @@ std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<s
 /// One more coordinate, or two more variables that are conjugate, with free names, at rest at 0, and with the
 /// terms that keep the model regular.
 std::vector<Edit> editsForNewCoordinates(const Value& document);
+
+/// Columns that are named after a part, "reaction.rod" and "reaction.rod.force", by its new name.
+void renameColumns(const Value& value, const std::string& pointer, const std::string& from,
+                   const std::string& to, std::vector<Edit>& edits);
+/// The edits without the plots and columns in which these problems are.
+std::vector<Edit> withoutRefused(std::vector<Edit> edits, const std::vector<Problem>& problems);
 
 }  // namespace extremal
