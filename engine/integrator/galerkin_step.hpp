@@ -244,10 +244,11 @@ private:
     Vector q0_, p0_, v0_, a0_, dq_, dp_;
     Vector carryQ_, carryP_, lastQ_, lastP_;  ///< lost to rounding; and the state it belongs to
     Vector placeQ_, placeV_;
-    Flat tested_, right_;  ///< of the iteration on transposed equations
-    Columns pulled_;
-    Vector eta_, rate_, byQ_, byV_;  ///< of the test curve at one node, and derivatives there
-    Flat weightedLq_, weightedLv_;   ///< h b_i times L_q(i) and L_v(i), or rows of L'', of one coordinate
+    // Of the iteration on transposed equations: (coordinate, node) and (coordinate, unknown).
+    Square tested_, pulled_, right_, next_, dual_;
+    std::vector<std::pair<int, int>> coupled_;  ///< coordinates whose Hessian is not 0 at every node
+    Vector eta_, rate_, byQ_, byV_;             ///< of the test curve at one node, and derivatives there
+    Flat weightedLq_, weightedLv_;  ///< h b_i times L_q(i) and L_v(i), or rows of L'', of one coordinate
     Flat jetGradient_, jetHessian_;
     Square hessians_;              ///< (i, j): entry j of the Hessian at node i
     std::vector<bool> isPresent_;  ///< entry j is not 0 at all nodes

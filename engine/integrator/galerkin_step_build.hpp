@@ -57,9 +57,11 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     node_ = times_ = padded(tables_.front().node);
     weight_ = Flat::Zero(rows());
     scaleToStep();
-    weightedLq_ = weightedLv_ = tested_ = Flat::Zero(rows());
-    for (Flat* f : {&Y_, &previousY_, &R_, &delta_, &right_}) *f = Flat::Zero(size);
-    for (Columns* c : {&nodeQ_, &nodeV_, &pulled_}) *c = Columns::Zero(rows(), d());
+    weightedLq_ = weightedLv_ = Flat::Zero(rows());
+    tested_ = pulled_ = Square::Zero(d(), rows());
+    right_ = next_ = dual_ = Square::Zero(d(), m(0));
+    for (Flat* f : {&Y_, &previousY_, &R_, &delta_}) *f = Flat::Zero(size);
+    for (Columns* c : {&nodeQ_, &nodeV_}) *c = Columns::Zero(rows(), d());
     gradient_ = Square::Zero(rows(), 2 * d());
     for (Vector* v : {&q0_, &p0_, &v0_, &a0_, &dq_, &dp_, &carryQ_, &carryP_, &lastQ_, &lastP_, &placeQ_,
                       &placeV_, &eta_, &rate_, &byQ_, &byV_})

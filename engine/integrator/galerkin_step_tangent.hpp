@@ -167,38 +167,45 @@ bool GalerkinStep<T, D>::iterateTransposed() {
     const T roundOff = T(4) * std::numeric_limits<T>::epsilon();
     const Functions& f = functions_.front();  // the fixed point has one table
     const int dim = d(), own = m(0), last = own - 1;
-    delta_.setZero();
+    coupled_.clear();  // in chains few of all pairs
+    for (int k = 0; k < dim; ++k)
+        for (int l = 0; l < dim; ++l)
+            if (!hessians_.col(k * 2 * dim + l).head(n()).isZero(T(0))) coupled_.emplace_back(k, l);
+    const auto addScaled = [dim](const T& factor, const T* from, T* to) {
+        for (int k = 0; k < dim; ++k) to[k] += factor * from[k];
+    };
+    const Eigen::Map<const Square> given(R_.data(), own, dim);
+    dual_.setZero();
     T before(0);
     for (int iteration = 0; iteration < most; ++iteration) {
+        tested_.setZero();
+        for (int i = 0; i < n(); ++i)
+            for (int a = 0; a < own; ++a)
+                addScaled(weight_(i) * (a < last ? -f.value(i, a) : f.value(i, a) - T(1)), &dual_(0, a),
+                          &tested_(0, i));
         pulled_.setZero();
-        for (int k = 0; k < dim; ++k) {
-            const T* const w = delta_.data() + k * own;
-            for (int i = 0; i < n(); ++i) {
-                T eta = -w[last];
-                for (int a = 0; a < last; ++a) eta -= f.value(i, a) * w[a];
-                tested_(i) = weight_(i) * (eta + f.value(i, last) * w[last]);
-            }
-            for (int l = 0; l < dim; ++l)
-                for (int i = 0; i < n(); ++i) pulled_(i, l) += tested_(i) * hessians_(i, k * 2 * dim + l);
-        }
+        for (const auto& [k, l] : coupled_)
+            for (int i = 0; i < n(); ++i) pulled_(l, i) += tested_(k, i) * hessians_(i, k * 2 * dim + l);
+        right_ = given.transpose();
+        for (int a = 0; a < own; ++a)
+            for (int i = 0; i < n(); ++i) addScaled(f.value(i, a), &pulled_(0, i), &right_(0, a));
+        next_.setZero();
+        for (int a = 0; a < own; ++a)
+            for (int b = 0; b < own; ++b) addScaled(f.kineticInverse(b, a), &right_(0, b), &next_(0, a));
         T change(0), size(0);
         for (int l = 0; l < dim; ++l) {
             const T part = kineticScale_ / mechanics_.masses[l];
-            T* const w = delta_.data() + l * own;
             for (int a = 0; a < own; ++a) {
-                right_(a) = R_(l * own + a);
-                for (int i = 0; i < n(); ++i) right_(a) += f.value(i, a) * pulled_(i, l);
-            }
-            for (int a = 0; a < own; ++a) {
-                T next(0);
-                for (int b = 0; b < own; ++b) next += f.kineticInverse(b, a) * right_(b);
-                next *= part;
-                change = std::max(change, T(abs(next - w[a])));
-                size = std::max(size, T(abs(next)));
-                w[a] = next;
+                const T now = part * next_(l, a);
+                change = std::max(change, T(abs(now - dual_(l, a))));
+                size = std::max(size, T(abs(now)));
+                dual_(l, a) = now;
             }
         }
-        if (change <= roundOff * size) return true;
+        if (change <= roundOff * size) {
+            Eigen::Map<Square>(delta_.data(), own, dim) = dual_.transpose();
+            return true;
+        }
         if (iteration > 1 && !(change <= before / T(2))) return false;
         before = change;
     }
