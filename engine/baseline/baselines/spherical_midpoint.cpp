@@ -17,6 +17,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/flow_method.hpp"
+#include "engine/core/corrections.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/model/spins/spins.hpp"
 
@@ -51,28 +52,15 @@ private:
     void step(double) override {
         spins::spinsOf(*model_, q0_.data(), p0_.data(), s0_.data());
         s1_ = s0_;
-        constexpr int most = 200;
-        constexpr double roundOff = 4e-16, settled = 1e-13;
-        double last = HUGE_VAL;
-        report_.outcome = Outcome::diverged;
-        for (int k = 0; k < most; ++k) {
-            const double change = iterate();
-            if (!std::isfinite(change)) {
-                report_.outcome = Outcome::notFinite;
-                return;
-            }
-            if (change <= roundOff || (change <= settled && change >= last)) {
-                report_.outcome = Outcome::converged;
-                break;
-            }
-            last = change;
-        }
+        const CorrectionLimits limits{
+            .most = 200, .last = 2 * CorrectionLimits::epsilon, .roundOff = 1e-13, .stall = 1};
+        report_.outcome = solveByCorrections(
+            limits, stop(), report_, [&](int, double) { return Correction{.size = iterate(), .scale = 1}; });
         if (report_.outcome == Outcome::converged) moveSpinors();
     }
     /// s_1 by the field at the last midpoint; the largest change of an entry.
     double iterate() {
         ++report_.cost.evaluations;
-        ++report_.cost.iterations;
         for (int i = 0; i < model_->count(); ++i) at(m_, i) = (at(s0_, i) + at(s1_, i)).normalized();
         spins::energyOf(*model_, m_.data(), b_.data());
         double change = 0;
