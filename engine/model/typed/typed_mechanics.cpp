@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/algebra/elimination.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/model/typed/branches.hpp"
@@ -152,9 +153,15 @@ bool separableVelocity(const void* p, const double&, const double*, const double
 
 /// Solves M x = b in place, M as a lower triangle; of few coordinates, so nothing is allocated.
 bool solveMass(int d, const double* triangle, double* x) {
-    double few[fewCoordinates * fewCoordinates];
-    std::vector<double> many(d > static_cast<int>(fewCoordinates) ? static_cast<std::size_t>(d * d) : 0);
-    double* const mass = many.empty() ? few : many.data();
+    if (d > static_cast<int>(fewCoordinates)) {
+        Eigen::MatrixXd mass(d, d);
+        for (int i = 0; i < d; ++i)
+            for (int j = 0; j <= i; ++j) mass(i, j) = mass(j, i) = *triangle++;
+        Eigen::Map<Eigen::VectorXd> b(x, d);
+        b = dense::solve<double>(mass, b);
+        return b.allFinite();
+    }
+    double mass[fewCoordinates * fewCoordinates];
     for (int i = 0; i < d; ++i)
         for (int j = 0; j <= i; ++j) mass[i * d + j] = mass[j * d + i] = *triangle++;
     eliminate(d, mass, x);
