@@ -31,6 +31,7 @@ public:
     }
     HeldStep(const HeldStep& other) : HeldStep(other.scheme_->clone(), other.held_, other.integral_) {
         inner_ = other.inner_;
+        if (sharing_) unmoved_ = other.unmoved_->clone();
     }
     HeldStep& operator=(const HeldStep&) = delete;
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<HeldStep>(*this); }

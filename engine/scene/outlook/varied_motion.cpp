@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
+#include "engine/integrator/variation/held_coordinates.hpp"
 #include "engine/integrator/variation/held_step.hpp"
 #include "engine/integrator/variation/transposed_step.hpp"
-#include "engine/integrator/variation/held_coordinates.hpp"
 #include "engine/model/parts/force.hpp"
 
 namespace extremal {
