@@ -18,6 +18,7 @@
 
 #include "app/option_table.hpp"
 #include "engine/scene/preset.hpp"
+#include "tests/app/program.hpp"
 #include "tests/app/verb_calls.hpp"
 #include "tests/fuzz/kinds.hpp"
 #include "tests/fuzz/mutation.hpp"
@@ -62,7 +63,7 @@ public:
             slowestNumber_ = number;
         }
         for (auto it = given_.cbegin(); it != given_.cend() && fault.isEmpty(); ++it)
-            if (contentOf(it.key()) != it.value()) fault = "changed " + it.key();
+            if (tests::contentOf(it.key()) != it.value()) fault = "changed " + it.key();
         if (fault.isEmpty()) return;
         ++faults_;
         std::printf("%llu: %s\n    extremal %s\n    %s\n", static_cast<unsigned long long>(number),
@@ -82,10 +83,6 @@ public:
     }
 
 private:
-    static QByteArray contentOf(const QString& path) {
-        QFile file(path);
-        return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-    }
     void give(const QString& name, const QByteArray& content) {
         QFile file(name);
         if (file.open(QIODevice::WriteOnly)) file.write(content);

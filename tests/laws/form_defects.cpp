@@ -111,12 +111,19 @@ Eigen::MatrixXd slopeOfSpins(const SpinModel& model, const std::vector<double>& 
         const auto at = [&](Eigen::Index k) { return x[static_cast<std::size_t>(k)]; };
         const Eigen::Index A = 2 * i, C = A + 1, B = 2 * n + A, E = B + 1;
         const double a = at(A), c = at(C), b = at(B) / w, d = at(E) / w;
-        D.row(3 * i)(A) = 2 * c, D.row(3 * i)(C) = 2 * a;
-        D.row(3 * i)(B) = 2 * d / w, D.row(3 * i)(E) = 2 * b / w;
-        D.row(3 * i + 1)(A) = 2 * d, D.row(3 * i + 1)(C) = -2 * b;
-        D.row(3 * i + 1)(B) = -2 * c / w, D.row(3 * i + 1)(E) = 2 * a / w;
-        D.row(3 * i + 2)(A) = 2 * a, D.row(3 * i + 2)(C) = -2 * c;
-        D.row(3 * i + 2)(B) = 2 * b / w, D.row(3 * i + 2)(E) = -2 * d / w;
+        const Eigen::Index row = 3 * i;
+        D(row, A) = 2 * c;
+        D(row, C) = 2 * a;
+        D(row, B) = 2 * d / w;
+        D(row, E) = 2 * b / w;
+        D(row + 1, A) = 2 * d;
+        D(row + 1, C) = -2 * b;
+        D(row + 1, B) = -2 * c / w;
+        D(row + 1, E) = 2 * a / w;
+        D(row + 2, A) = 2 * a;
+        D(row + 2, C) = -2 * c;
+        D(row + 2, B) = 2 * b / w;
+        D(row + 2, E) = -2 * d / w;
     }
     return D;
 }

@@ -24,6 +24,7 @@
 #include "ui/panels/parameter_table.hpp"
 #include "ui/panels/part_lines.hpp"
 #include "ui/panels/problem_text.hpp"
+#include "ui/workspace/scheme_edits.hpp"
 #include "ui/workspace/typed_edits.hpp"
 #include "ui/workspace/typed_kind.hpp"
 #include "ui/workspace/workspace.hpp"
@@ -166,7 +167,7 @@ void TypedModelEditor::become(const TypedKind& kind) {
     text_->setToolTip(translated(kind.tip));
     problem_->setObjectName(QStringLiteral("problem.") + kind.formula);
     equations_->setTip(translated(kind.equations));
-    const bool areVariables = kind.isFirstOrder();
+    const bool areVariables = !kind.hasRates();
     namesTitle_->setText(areVariables ? tr("variables") : tr("coordinates"));
     namesEdit_->setObjectName(QStringLiteral("field.") + kind.names);
     namesEdit_->setAccessibleName(areVariables ? tr("Variables") : tr("Coordinates"));
@@ -212,8 +213,7 @@ void TypedModelEditor::check() {
     stop_ = std::stop_source();
     const Settings model = modelNow();
     // As it is typed, so that places in it are those of the text.
-    Value whole(Value::Object{{"type", model.type}});
-    for (const auto& [key, value] : model.keys) whole.set(key, value);
+    Value whole = settingsTree(model);
     whole.set(kind_->formula, formulaOfText(text_->toPlainText().toStdString()));
     runInBackground([self = QPointer(this), formula = formulaIn(whole), model, names = kind_->names,
                      text = text_->toPlainText().toStdString(), stop = stop_.get_token()] {

@@ -47,13 +47,6 @@ const CatalogItem* itemOf(const std::vector<CatalogItem>& items, std::string_vie
     return found == items.end() ? nullptr : &*found;
 }
 
-Value settingsTree(const Settings& settings) {
-    Value tree(Value::Object{{"type", settings.type}});
-    for (const auto& [key, value] : settings.keys)
-        if (!value.isNull()) tree.set(key, value);
-    return tree;
-}
-
 std::string pairLabel(const Settings& space, const Settings& quadrature) {
     const Properties known = describe(space, quadrature);
     if (!known.knownAs.empty()) return known.knownAs;
@@ -67,6 +60,13 @@ bool hasImpliedStep(const Settings& space) { return familyPart<StepOfSpace>(spac
 std::string place(int index) { return "/schemes/" + std::to_string(index); }
 
 }  // namespace
+
+Value settingsTree(const Settings& settings) {
+    Value tree(Value::Object{{"type", settings.type}});
+    for (const auto& [key, value] : settings.keys)
+        if (!value.isNull()) tree.set(key, value);
+    return tree;
+}
 
 double sensibleStep(const Scene& scene, int order, double stabilityLimit) {
     const ModelEntry* entry = findModel(scene.model.type);

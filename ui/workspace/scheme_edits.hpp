@@ -20,6 +20,9 @@ double sensibleStep(const Scene& scene, int order, double stabilityLimit);
 /// A label no other scheme has: the wish, or the wish with "(2)", "(3)", ...
 std::string uniqueLabel(const Scene& scene, const std::string& wish);
 
+/// Settings as a member of a document: their type and the keys that have a value.
+Value settingsTree(const Settings& settings);
+
 /// A complete scheme for "/schemes/-".
 Value newPair(const Scene& scene, const Settings& space, const Settings& quadrature);
 Value newBaseline(const Scene& scene, const std::string& id);

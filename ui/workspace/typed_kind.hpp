@@ -39,7 +39,6 @@ struct TypedKind {
     std::string rateOf(const std::string& name) const { return before + name + behind; }
     /// The x of x_t or p_x; empty: the name is none of these.
     std::string nameOfRate(const std::string& rate) const;
-    bool isFirstOrder() const { return !hasRates(); }  ///< starts from "x"
 };
 
 /// Of a type of model, of the one of a document; null: its formula is not typed so.
