@@ -392,7 +392,8 @@ private:
             if (outcome == Outcome::accumulation) report.step = at - start;
             return report;
         };
-        for (int count = 0; count < mostImpacts; ++count) {
+        for (int count = 0;; ++count) {
+            if (count == mostImpacts) return fail(Outcome::accumulation, s.t);
             const std::size_t known = impacts_.size();
             if (fastestApproach(s) >= 0) rest_.leave();
             if (!strikeAll(s)) return fail(Outcome::accumulation, s.t);
@@ -448,7 +449,6 @@ private:
             gaps_.find(s.t, s.x.data());
             if (const auto r = gaps_.speed(crossing->wall, s); r && r->isGraze)
                 isGrazed_[static_cast<std::size_t>(crossing->wall)] = true;
-            if (count + 1 == mostImpacts) return fail(Outcome::accumulation, s.t);
         }
         scheme().setStep(h_);
         s.node = state.node + 1;

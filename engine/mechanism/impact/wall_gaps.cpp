@@ -73,7 +73,9 @@ WallCrossing WallGaps::earliestOf(WallCrossing found, const Integrator& step, co
         if (tau > 0) {
             step.denseOutput(tau, at_);
             find(start.t + tau * h, at_.data());
-            if (gaps_[static_cast<std::size_t>(best.wall)] > 0) {
+            // What is left alone up to here was searched before, and the scheme's own steps stay outside
+            // there.
+            if (gaps_[static_cast<std::size_t>(best.wall)] > 0 || isLeft(best.wall, tau)) {
                 best.from = tau;
                 return best;
             }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/scene/write/codec.hpp"
 #include "tests/engine/mechanism/mechanisms.hpp"
 #include "tests/tools/test.hpp"
 
@@ -181,6 +182,42 @@ private slots:
         QVERIFY(std::abs(r.state.x[0] - 3) < 1e-13 && std::abs(r.state.x[1]) < 1e-14);
     }
     /// A pendulum that falls onto a table: a constraint of its own and the wall.
+    /// A ball on a spring below a bar leaves the floor so slowly that only the dense output goes back into
+    /// it. Each step ends at its node, and is of its order: the search was repeated a thousand times, and its
+    /// end was taken for the node.
+    void leavingSlowlyEndsAtTheNode() {
+        const ReadScene read = readScene(R"json({"extremal":1,"model":{"type":"mechanism","gravity":9.81,
+            "points":{"A":{"at":[0,1],"fixed":true},"B":{"body":"bar","at":[-0.707106781187,0]},
+                      "C":{"body":"bar","at":[0.707106781187,0]},"D":{"mass":1,"at":[1.5,0]}},
+            "bodies":{"bar":{"mass":1,"inertia":0.1666667,"at":[0.5,0.5],"angle":-0.785398163397448}},
+            "pins":{"pin":{"from":"B","to":"A"}},"springs":{"s":{"from":"C","to":"D","stiffness":100}},
+            "dampers":{"d":{"from":"C","to":"D","damping":1}},
+            "walls":{"floor":{"through":[0.5,-0.5],"normal":[0,1],"restitution":0.5}}},
+            "time":{"end":2},"schemes":[{"label":"G2","step":0.02,"scheme":"galerkin-gauss-2"}]})json");
+        QVERIFY(read.resolved);
+        const auto end = [&](int steps) {
+            const auto integrator =
+                makeIntegrator(*read.resolved->system, *namedScheme("galerkin-gauss-2"), {0, 2.0 / steps});
+            State state = read.resolved->initial;
+            long long evaluations = 0;
+            for (int i = 0; i < steps; ++i) {
+                const StepReport report = advance(*integrator, state);
+                if (report.outcome != Outcome::converged) return Ending{report.outcome, state};
+                evaluations += report.cost.evaluations;
+            }
+            qInfo("%d steps: t = %.17g, %lld evaluations", steps, state.t, evaluations);
+            return Ending{evaluations < 60LL * steps ? Outcome::converged : Outcome::stepBudget, state};
+        };
+        const Ending coarse = end(100), fine = end(400), exact = end(2000);
+        for (const Ending* each : {&coarse, &fine, &exact}) {
+            QVERIFY(each->outcome == Outcome::converged);
+            QCOMPARE(each->state.t, 2.0);
+        }
+        const auto a = distance(coarse.state, exact.state), b = distance(fine.state, exact.state);
+        qInfo("q %.1e %.1e, p %.1e %.1e: orders %.2f %.2f", a.q, b.q, a.p, b.p, std::log2(a.q / b.q) / 2,
+              std::log2(a.p / b.p) / 2);
+        QVERIFY(std::log2(a.q / b.q) / 2 > 3.5 && std::log2(a.p / b.p) / 2 > 3.5);
+    }
     void aRodThatComesToRest() {
         const Value::Object parts{{"constraints", Value::Object{{"rod", "x^2+y^2-1"}}},
                                   {"walls", Value::Object{{"table", wall("y + 0.5", 0.4)}}}};
