@@ -382,7 +382,7 @@ Figure studyFigure(std::string_view study, const LimitsStudy& limits) {
             } else {
                 figure.add(Guide{{range.from, range.to}, {height, height}});
                 constexpr double room = 1.4;  // for the word
-                if (range.to < room * range.from) continue;
+                if (range.to < room * range.from && row.result.ranges.size() > 1) continue;
                 figure.add(
                     Label{std::sqrt(range.from * range.to), height + 0.25, std::string(name(range.reason))});
             }
@@ -391,7 +391,9 @@ Figure studyFigure(std::string_view study, const LimitsStudy& limits) {
         if (!usable.x.empty()) figure.add(std::move(usable));
         --height;
     }
-    if (right > left) figure.x.range = {left, right};
+    constexpr double around = 2;  // a single step
+    if (right > 0)
+        figure.x.range = {right > left ? left : left / around, right > left ? right : right * around};
     figure.y.range = {height + 0.5, 0.5};
     if (!(right > 0)) figure.message = "No point has a result";
     figure.summary = "Usable steps of " + std::to_string(limits.rows().size()) + " schemes.";

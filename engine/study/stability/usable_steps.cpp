@@ -86,7 +86,7 @@ public:
           stop_(stop) {}
 
     UsableSteps find() {
-        descend();
+        climb();
         addResonances();
         bisect();
         UsableSteps found{ranges(), {}, static_cast<int>(known_.size())};
@@ -100,6 +100,7 @@ private:
         double error;
     };
     using Place = std::map<long long, Known>::const_iterator;
+    static constexpr int perOctave = 3;  ///< rungs of the ladder of steps
 
     double spent() const { return threadSeconds() - begin_; }
     bool isOver(double part) const { return stop_.stop_requested() || spent() > part * search_.seconds; }
@@ -115,19 +116,33 @@ private:
         return StepLimit::accuracy;
     }
 
-    /// False: there was no time for it.
+    /// What one run may take. Steps that are too long may be dear: an iteration that does not end, a point
+    /// that bounces without end. They must not use up what shorter steps need.
+    double roomFor(long long n) const {
+        constexpr double least = 1e-3, part = 0.1, spare = 2;
+        const double left = std::max(search_.seconds - spent(), least);
+        const double predicted = costPerStep_ * static_cast<double>(n);
+        return std::min(left, std::max(part * left, spare * predicted));
+    }
+
+    /// False: there was no time for it, which is kept as what is known of this step.
     bool run(long long n) {
-        if (known_.contains(n)) return true;
-        constexpr double least = 1e-3;
+        if (const auto at = known_.find(n); at != known_.end())
+            return at->second.judgement != Judgement::unknown;
         StudyPoint point;
         point.scheme = scheme_;
         point.step = length_ / static_cast<double>(n);
         CostLimit limit;
-        limit.seconds = std::max(search_.seconds - spent(), least);
+        limit.seconds = roomFor(n);
+        const double begin = spent();
         const PointResult result =
             runPoint(scene_, point, search_.metrics,
                      search_.reference ? search_.reference() : ExactSolution{}, 0, limit, stop_);
-        if (result.isCutOff || result.status == RunStatus::partial) return false;
+        const bool isCutOff = result.isCutOff || result.status == RunStatus::partial;
+        if (isCutOff && !stop_.stop_requested())
+            known_.emplace(n, Known{Judgement::unknown, StepLimit::time, PointResult::unknown});
+        if (isCutOff) return false;
+        if (result.isDone()) costPerStep_ = (spent() - begin) / static_cast<double>(n);
         std::vector<JudgedValue> values(search_.wishes.begin(), search_.wishes.end());
         for (std::size_t i = 0; i < values.size(); ++i) values[i].value = result.errorIn(i);
         const Judgement judgement = judge(result.status, result.cause, values);
@@ -136,23 +151,62 @@ private:
         return true;
     }
 
-    /// Until two octaves in a row are right with steps that resolve the fastest motion.
-    void descend() {
-        constexpr int perOctave = 3, enough = 2 * perOctave + 1;
-        constexpr double first = 2, most = 2e5, forLadder = 0.6;
-        int right = 0;
-        long long last = 0;
-        for (int k = 0;; ++k) {
-            const auto n = std::llround(first * std::exp2(static_cast<double>(k) / perOctave));
-            if (n == last) continue;
-            last = n;
-            if (static_cast<double>(n) > most) return;
-            isTimeUp_ = isOver(forLadder) || !run(n);
-            if (isTimeUp_) return;
-            right = known_.at(n).judgement == Judgement::right ? right + 1 : 0;
-            const double h = length_ / static_cast<double>(n);
-            if (right >= enough && h * search_.frequencies.high() < 1) return;
+    /// Steps in thirds of octaves, from one that is of the scene's own order: first longer ones, then shorter
+    /// ones, then what is left of the longest, which may cost more than all the others and matter least.
+    void climb() {
+        constexpr double forLonger = 0.2, forShorter = 0.7, forRest = 0.8;
+        const int middle = rungOf(length_ / longestSensible());
+        int longer = middle - 1;
+        for (; longer >= 0 && !isOver(forLonger); --longer) (void)run(stepsOf(longer));
+        const int shortest = descend(middle, forShorter);
+        for (int k = shortest - 1; k > longer && !isOver(forRest); --k) (void)run(stepsOf(k));
+        for (; longer >= 0 && !isOver(forRest); --longer) (void)run(stepsOf(longer));
+        isTimeUpAbove_ = longer >= 0;
+    }
+
+    /// Until two octaves in a row are right with steps that resolve the fastest motion; the last rung.
+    int descend(int from, double part) {
+        constexpr int enough = 2 * perOctave + 1;
+        constexpr double most = 2e5;
+        int k = from;
+        while (static_cast<double>(stepsOf(k)) <= most) {
+            isTimeUpBelow_ = isOver(part);
+            if (isTimeUpBelow_) break;
+            (void)run(stepsOf(k));
+            int right = 0;
+            for (int i = k; i >= 0 && isRight(stepsOf(i)); --i) ++right;
+            const double h = length_ / static_cast<double>(stepsOf(k));
+            if (right >= enough && h * search_.frequencies.high() < 1) break;
+            k += ahead(stepsOf(k));
         }
+        return k;
+    }
+
+    /// How many rungs the claimed order is away from the wish, one less to be safe: one where something else
+    /// than the accuracy is in the way.
+    int ahead(long long n) const {
+        const auto at = known_.find(n);
+        const int order = scene_.schemes[scheme_].claims.order;
+        if (at == known_.end() || at->second.reason != StepLimit::accuracy || order < 1) return 1;
+        const double octaves = std::log2(at->second.error / search_.wishes.front().wish) / order;
+        return std::clamp(static_cast<int>(perOctave * octaves) - 1, 1, 2 * perOctave);
+    }
+
+    /// The step of the scene, or one that resolves the fastest motion where that is longer.
+    double longestSensible() const {
+        const double own = scene_.schemes[scheme_].spec.step.value, fast = search_.frequencies.high();
+        return fast > 0 ? std::max(own, 0.5 / fast) : own;
+    }
+    long long stepsOf(int rung) const {
+        constexpr double first = 2;
+        return std::llround(first * std::exp2(static_cast<double>(rung) / perOctave));
+    }
+    int rungOf(double steps) const {
+        return std::max(0, static_cast<int>(std::floor(perOctave * std::log2(steps / 2))));
+    }
+    bool isRight(long long n) const {
+        const auto at = known_.find(n);
+        return at != known_.end() && at->second.judgement == Judgement::right;
     }
 
     void addResonances() {
@@ -179,6 +233,7 @@ private:
                 const auto low = static_cast<double>(a->first), high = static_cast<double>(b->first);
                 const bool isSame = a->second.judgement == b->second.judgement;
                 if (isSame || b->first - a->first < 2 || high < apart * low) continue;
+                if (a->second.reason == StepLimit::time || b->second.reason == StepLimit::time) continue;
                 const bool isEnd =
                     a->second.judgement == Judgement::right || b->second.judgement == Judgement::right;
                 if (isEnd || !chosen)
@@ -203,8 +258,10 @@ private:
             if (range.isUsable() && range.from == range.to && known_.size() > 1)
                 range.reason = StepLimit::single;
         for (std::size_t i = 0; i < all.size(); ++i) {
-            all[i].below = i > 0 ? all[i - 1].reason : isTimeUp_ ? StepLimit::time : StepLimit::shortest;
-            all[i].above = i + 1 < all.size() ? all[i + 1].reason : StepLimit::longest;
+            all[i].below = i > 0 ? all[i - 1].reason : isTimeUpBelow_ ? StepLimit::time : StepLimit::shortest;
+            all[i].above = i + 1 < all.size() ? all[i + 1].reason
+                           : isTimeUpAbove_   ? StepLimit::time
+                                              : StepLimit::longest;
         }
         return all;
     }
@@ -214,8 +271,9 @@ private:
     const StepSearch& search_;
     LinearLimits linear_;
     double length_, begin_;
+    double costPerStep_ = 0;  ///< of the last run that came to its end
     std::stop_token stop_;
-    bool isTimeUp_ = false;
+    bool isTimeUpBelow_ = false, isTimeUpAbove_ = false;
     std::map<long long, Known> known_;  ///< by the number of steps
 };
 

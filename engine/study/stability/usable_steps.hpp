@@ -56,7 +56,8 @@ std::string_view name(StepLimit limit);
 /// By its name; none for anything else.
 StepLimit stepLimitOf(std::string_view name);
 
-/// Steps of one judgement that are neighbours.
+/// Steps of one judgement that are neighbours. Unknown, with `time` for its reason: no such step was run to
+/// its end.
 struct StepRange {
     double from = 0, to = 0;  ///< steps that were run
     Judgement judgement = Judgement::unknown;

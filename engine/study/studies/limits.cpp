@@ -32,14 +32,19 @@ Value::Array rowOf(const LimitsStudy& study, const LimitsStudy::Row& row, const 
             knownNumber(g.floor)};
 }
 
-/// "not usable: accuracy, solver".
+/// "no usable step: accuracy, solver"; where the search had to end before, down to which step.
 std::string whyNot(const UsableSteps& steps) {
     std::string text;
     for (const StepRange& range : steps.ranges) {
         const std::string why(name(range.reason));
         if (!why.empty() && text.find(why) == std::string::npos) text += (text.empty() ? "" : ", ") + why;
     }
-    return text.empty() ? "no step was tried in the time of the search" : "no usable step: " + text;
+    if (text.empty()) return "no step was tried in the time of the search";
+    const StepRange& shortest = steps.ranges.front();
+    const bool isTimeUp = shortest.below == StepLimit::time;
+    return "no usable step" +
+           (isTimeUp ? " down to " + formatNumber(shortest.from, 3) + ", where its time ended" : "") + ": " +
+           text;
 }
 
 }  // namespace

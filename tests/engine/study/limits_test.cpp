@@ -122,6 +122,24 @@ private slots:
         qInfo("SV to %.5f, then %s", verlet.back().to, std::string(name(verlet.back().above)).c_str());
         QVERIFY(verlet.back().to < 0.002 && verlet.back().to > 0.0014);
     }
+    /// Steps that are too long cost the most: a ball on a spring that bounces without end. They must not use
+    /// up the time, which was gone before a step was tried that is usable.
+    void longStepsLeaveTimeForShortOnes() {
+        const ResolvedScene scene = sceneOf(R"json({"extremal":1,"model":{"type":"mechanism","gravity":9.81,
+            "points":{"A":{"at":[0,1],"fixed":true},"B":{"body":"bar","at":[-0.7,0]},
+                      "C":{"body":"bar","at":[0.7,0]},"D":{"mass":1,"at":[1.5,0]}},
+            "bodies":{"bar":{"mass":1,"inertia":0.16,"at":[0.494974746830583,0.505025253169417],"angle":-0.785398163397448}},
+            "pins":{"pin":{"from":"B","to":"A"}},"springs":{"s":{"from":"C","to":"D","stiffness":1000}},
+            "dampers":{"d":{"from":"C","to":"D","damping":1}},
+            "walls":{"w":{"through":[0,-0.5],"normal":[0,1],"restitution":1}}},
+            "time":{"end":2},"schemes":[{"label":"G2","step":0.02,"scheme":"galerkin-gauss-2"}]})json");
+        const LimitsStudy study = done(scene, {{"error.phi_bar", 1e-3}}, 2);
+        for (const StepRange& r : study.rows().front().result.ranges)
+            qInfo("%.5f to %.5f: %s %s", r.from, r.to, std::string(name(r.judgement)).c_str(),
+                  std::string(name(r.reason)).c_str());
+        QVERIFY(!usable(study).empty());
+        QCOMPARE(usable(study).back().above, StepLimit::accuracy);
+    }
     void aLogHasAllOfIt() {
         const ResolvedScene scene = oscillator(R"({"label":"SV","step":0.1,"baseline":"stormer-verlet"},
             {"label":"RKF","tolerance":1e-6,"baseline":"fehlberg78"})",
