@@ -49,7 +49,8 @@ QString explainCost(const Summary& s) {
 }
 
 QString explainError(const Summary& s, const ReferenceInfo& reference, const std::string& unit) {
-    if (reference.type == "none") return say("There is no reference, so the error is not known.");
+    if (reference.type == "none")
+        return say("There is no reference, so the error is not known. The button above computes one.");
     const bool isOver = s.status == RunStatus::done || s.status == RunStatus::failed;
     if (isOver && s.steps == 0) return say("No step was taken: there is nothing to measure.");
     QString text = say("Largest distance from the reference over all nodes of the run, %1.\nReference: %2.")

@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ui/base/card.hpp"
@@ -207,16 +208,47 @@ void HeaderBar::showChoice() {
         text += tr("  →  no scheme; the closest is %1 with %2")
                     .arg(QString::fromStdString(nearest->spec.label), shortNumber(nearest->error));
     else if (run_.results() && run_.results()->isFinished)
-        text += tr("  →  no errors are known here");
+        text += offersReference() ? tr("  →  there is no reference: no errors")
+                                  : tr("  →  no errors are known here");
     choice_->setText(text);
     const bool isOther = cheapest && !cheapest->isOfScene;
+    use_->setText(offersReference() ? tr("Compute one") : tr("Use it"));
+    use_->setToolTip(offersReference()
+                         ? tr("Compares the schemes with a run whose own error is small; it may take longer "
+                              "than they do")
+                         : tr("Gives the scheme this step"));
     chosen_ = isOther ? cheapest->spec.label : std::string();
     if (isOther)
         chosenStep_ = cheapest->spec.tolerance ? *cheapest->spec.tolerance : cheapest->spec.step.value;
-    use_->setVisible(isOther);
+    use_->setVisible(isOther || offersReference());
+}
+
+/// Whether the scene was computed, and asks for no reference.
+bool HeaderBar::offersReference() const {
+    return workspace_.hasScene() && run_.results() && run_.results()->isFinished &&
+           workspace_.scene().reference.kind == ReferenceSpec::Kind::none;
+}
+
+/// The reference that the program chooses, with the observable and the plot of errors.
+void HeaderBar::computeReference() {
+    const Scene& scene = workspace_.scene();
+    std::vector<Edit> edits{{"/reference", std::nullopt}};
+    const auto has = [](const auto& all, const auto& isError) {
+        return std::any_of(all.begin(), all.end(), isError);
+    };
+    const Value* const observe = workspace_.document().find("observe");
+    if (observe && observe->isArray() &&
+        !has(scene.observe, [](const std::string& name) { return name == "error"; }))
+        edits.push_back({"/observe/-", "error"});
+    const Value* const views = workspace_.document().find("views");
+    if (views && views->isArray() &&
+        !has(views->asArray(), [](const Value& view) { return view == Value("error"); }))
+        edits.push_back({"/views/-", "error"});
+    workspace_.edit(edits, tr("Compare with a reference"));
 }
 
 void HeaderBar::useChoice() {
+    if (offersReference()) return computeReference();
     const auto& schemes = workspace_.scene().schemes;
     for (std::size_t i = 0; i < schemes.size(); ++i) {
         if (schemes[i].label != chosen_) continue;

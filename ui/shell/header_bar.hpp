@@ -49,6 +49,8 @@ private:
     void showState();
     void showWanted();
     void showChoice();
+    bool offersReference() const;
+    void computeReference();
     void useChoice();
 
     Workspace& workspace_;

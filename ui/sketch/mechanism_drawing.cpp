@@ -24,8 +24,8 @@ double distanceToLine(const Place& p, const Place& a, const Place& b) {
     return distance(p, {a[0] + part * along[0], a[1] + part * along[1]});
 }
 
-/// Sums and products leave digits that were not drawn.
-double rounded(double x) { return parseNumber(formatNumber(x, 12)).value_or(x); }
+/// To 12 digits: sums and products leave some that were not drawn. A zero has no sign.
+double rounded(double x) { return parseNumber(formatNumber(x, 12)).value_or(x) + 0.0; }
 Value pairValue(const Place& p) { return Value::Array{rounded(p[0]), rounded(p[1])}; }
 
 bool isIn(const Value& element, const char* key, const std::string& name) {

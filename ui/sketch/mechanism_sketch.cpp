@@ -26,19 +26,21 @@ bool has(const Value& model, const char* kind) {
 
 /// What a drawing can be asked for: reactions where something holds, the balance where something takes or
 /// gives energy.
-Value observablesOf(const Value& model) {
+Value observablesOf(const Value& model, bool hasReference) {
     Value::Array names;
     if (has(model, "rods") || has(model, "pins") || has(model, "sliders")) {
         names.emplace_back("constraint");
         names.emplace_back("reaction");
     }
     names.emplace_back("energy");
+    if (hasReference) names.emplace_back("error");
     if (has(model, "dampers") || has(model, "motors") || has(model, "walls")) names.emplace_back("balance");
     return names;
 }
 
-Value viewsOf(const Value& model) {
+Value viewsOf(const Value& model, bool hasReference) {
     Value::Array views{"stage", "energy"};
+    if (hasReference) views.emplace_back("error");
     if (has(model, "dampers") || has(model, "motors") || has(model, "walls")) views.emplace_back("balance");
     if (has(model, "rods"))
         views.emplace_back(Value::Object{{"view", "phase"},
@@ -52,12 +54,12 @@ bool areOfDrawing(const Value* observe, const Value* views) {
     if (!observe || !observe->isArray() || !views || !views->isArray()) return false;
     const auto isOurs = [](const Value& name) {
         return name == Value("constraint") || name == Value("reaction") || name == Value("energy") ||
-               name == Value("balance");
+               name == Value("error") || name == Value("balance");
     };
     const auto isOurView = [](const Value& view) {
         const Value* const y = view.find("y");
-        return view == Value("stage") || view == Value("energy") || view == Value("balance") ||
-               (y && y->isString() && y->asString().starts_with("reaction."));
+        return view == Value("stage") || view == Value("energy") || view == Value("error") ||
+               view == Value("balance") || (y && y->isString() && y->asString().starts_with("reaction."));
     };
     return std::all_of(observe->asArray().begin(), observe->asArray().end(), isOurs) &&
            std::all_of(views->asArray().begin(), views->asArray().end(), isOurView);
@@ -77,6 +79,8 @@ bool isSameModel(const Value& a, const Value& b) {
 
 }  // namespace
 
+/// Without a reference, which takes longer than the motion where springs are stiff: every change of the
+/// drawing runs again. The header offers one.
 Value newMechanismScene() {
     const ModelEntry* const entry = findModel("mechanism");
     Value scene(Value::Object{{"extremal", 1}, {"title", "A mechanism of my own"}});
@@ -86,8 +90,8 @@ Value newMechanismScene() {
     scene.set("schemes", Value(Value::Array{Value(Value::Object{
                              {"label", "Gauss 2"}, {"step", 0.02}, {"scheme", "galerkin-gauss-2"}})}));
     scene.set("reference", Value(Value::Object{{"type", "none"}}));
-    scene.set("observe", observablesOf(model));
-    scene.set("views", viewsOf(model));
+    scene.set("observe", observablesOf(model, false));
+    scene.set("views", viewsOf(model, false));
     return scene;
 }
 
@@ -218,8 +222,9 @@ std::vector<Edit> MechanismSketch::edits() const {
         for (const char* key : {"q", "p", "v", "q1", "at"})
             if (initial->find(key)) edits.push_back({std::string("/initial/") + key, std::nullopt});
     if (areOfDrawing(document.find("observe"), document.find("views"))) {
-        edits.push_back({"/observe", observablesOf(drawn)});
-        edits.push_back({"/views", viewsOf(drawn)});
+        const bool hasReference = workspace_.scene().reference.kind != ReferenceSpec::Kind::none;
+        edits.push_back({"/observe", observablesOf(drawn, hasReference)});
+        edits.push_back({"/views", viewsOf(drawn, hasReference)});
     }
     return edits;
 }
