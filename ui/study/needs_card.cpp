@@ -14,11 +14,10 @@
 #include <limits>
 
 #include "engine/core/problem.hpp"
-#include "engine/study/search/metric.hpp"
-#include "ui/base/combo_box.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/theme.hpp"
 #include "ui/panels/sideways_area.hpp"
+#include "ui/study/metric_box.hpp"
 #include "ui/study/study_edits.hpp"
 #include "ui/workspace/wanted.hpp"
 #include "ui/workspace/workspace.hpp"
@@ -136,7 +135,7 @@ NeedsCard::NeedsCard(Workspace& workspace, Wanted& wanted, const Theme& theme, Q
     measure_->setToolTip(
         tr("Searches all models and schemes for the cheapest at each error, for a second (Ctrl+Shift+L)"));
     header()->addWidget(measure_);
-    metric_ = new ComboBox;
+    metric_ = new MetricBox;
     metric_->setAccessibleName(tr("What the error is of"));
     metric_->setToolTip(
         tr("What must come out right: an error that is wanted of one coordinate alone may need "
@@ -176,26 +175,8 @@ void NeedsCard::setTheme(const Theme& theme) {
 
 void NeedsCard::showScene() {
     if (!workspace_.hasScene()) return;
-    offerMetrics();
+    metric_->offer(*workspace_.resolved());
     showJob();
-}
-
-/// An error needs a reference.
-void NeedsCard::offerMetrics() {
-    const ResolvedScene& scene = *workspace_.resolved();
-    const bool hasReference = scene.scene.reference.kind != ReferenceSpec::Kind::none;
-    QStringList names, present;
-    for (const std::string& name : metricNames(*scene.system, scene.initial))
-        if (hasReference || !metricOf(name, false, *scene.system, scene.initial).needsReference())
-            names << QString::fromStdString(name);
-    for (int i = 0; i < metric_->count(); ++i) present << metric_->itemText(i);
-    if (names == present) return;
-    const QSignalBlocker blocker(metric_);
-    const QString before = metric_->currentText();
-    metric_->clear();
-    metric_->addItems(names);
-    metric_->setCurrentIndex(
-        std::max(0, static_cast<int>(names.indexOf(names.contains(before) ? before : "error"))));
 }
 
 void NeedsCard::measure() {

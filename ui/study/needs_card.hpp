@@ -11,7 +11,6 @@
 #include "ui/base/card.hpp"
 #include "ui/study/needs_job.hpp"
 
-class QComboBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
@@ -19,6 +18,7 @@ class QVBoxLayout;
 
 namespace extremal {
 
+class MetricBox;
 class SidewaysArea;
 struct Theme;
 class Wanted;
@@ -66,7 +66,6 @@ signals:
 
 private:
     void showScene();
-    void offerMetrics();
     void showJob();
     void showSteps();
     QString stateText() const;
@@ -77,7 +76,7 @@ private:
     const Theme* theme_;
     NeedsJob* job_;
     QPushButton* measure_;
-    QComboBox* metric_;
+    MetricBox* metric_;
     QProgressBar* progress_;
     QLabel* state_;
     SidewaysArea* stair_;  ///< in a low window it scrolls

@@ -14,6 +14,7 @@
 #include "engine/study/catalog.hpp"
 #include "engine/study/request.hpp"
 #include "ui/base/combo_box.hpp"
+#include "ui/study/metric_box.hpp"
 #include "ui/study/varied_number_edit.hpp"
 #include "ui/study/wishes_edit.hpp"
 
@@ -25,7 +26,7 @@ StudyForm::StudyForm(QWidget* parent) : Card(tr("Study"), parent) {
     for (const StudyEntry& entry : studyEntries())
         kind_->addItem(QString::fromStdString(entry.item.title), QString::fromStdString(entry.item.id));
     metricLabel_ = makeLabel(tr("metric"), "caption");
-    metric_ = new ComboBox;
+    metric_ = new MetricBox;
     metric_->setAccessibleName(tr("Metric"));
     metric_->setToolTip(tr("What is measured of each run: the largest size of this observable"));
     isAtEnd_ = new QCheckBox(tr("at the end alone"));
@@ -98,28 +99,9 @@ void StudyForm::showOptions() {
 }
 
 void StudyForm::offer(const ResolvedScene& resolved) {
-    offerMetrics(resolved);
+    metric_->offer(resolved);
     x_->offer(resolved.scene);
     y_->offer(resolved.scene);
-}
-
-/// An error needs a reference.
-void StudyForm::offerMetrics(const ResolvedScene& resolved) {
-    const bool hasReference = resolved.scene.reference.kind != ReferenceSpec::Kind::none;
-    QStringList names;
-    for (const std::string& name : metricNames(*resolved.system, resolved.initial))
-        if (hasReference ||
-            metricOf(name, false, *resolved.system, resolved.initial).needsReference() == false)
-            names << QString::fromStdString(name);
-    QStringList present;
-    for (int i = 0; i < metric_->count(); ++i) present << metric_->itemText(i);
-    if (names == present) return;
-    const QString before = metric_->currentText();
-    metric_->clear();
-    metric_->addItems(names);
-    metric_->setCurrentText(names.contains(before)                    ? before
-                            : names.contains(QStringLiteral("error")) ? QStringLiteral("error")
-                                                                      : names.value(0));
 }
 
 Study StudyForm::study(const ResolvedScene& resolved, double wantedError) const {

@@ -14,6 +14,7 @@ class QPushButton;
 namespace extremal {
 
 struct StudyEntry;
+class MetricBox;
 class VariedNumberEdit;
 class WishesEdit;
 
@@ -40,10 +41,10 @@ signals:
 
 private:
     void showOptions();
-    void offerMetrics(const ResolvedScene& resolved);
     Study cheapest(const ResolvedScene& resolved, double wantedError) const;
 
-    QComboBox *kind_, *metric_;
+    QComboBox* kind_;
+    MetricBox* metric_;
     QLabel *metricLabel_, *state_;
     QCheckBox *isAtEnd_, *findsLimits_;
     VariedNumberEdit *x_, *y_;
