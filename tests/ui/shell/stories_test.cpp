@@ -3,17 +3,23 @@
 /// (tests/output/stories): what they click and press is counted.
 #include <QApplication>
 #include <QClipboard>
+#include <QComboBox>
 #include <QDir>
 #include <QFile>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPlainTextEdit>
 #include <QPushButton>
-#include <QTabBar>
+#include <QTableWidget>
 #include <QTest>
 
+#include <cmath>
 #include <functional>
 
+#include "engine/model/parts/constraint.hpp"
+#include "engine/model/parts/force.hpp"
+#include "engine/model/parts/wall.hpp"
+#include "engine/scene/resolve.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
 #include "tests/ui/window.hpp"
@@ -22,10 +28,13 @@
 #include "ui/shell/lesson_bar.hpp"
 #include "ui/shell/record_bar.hpp"
 #include "ui/shell/start_page.hpp"
+#include "ui/sketch/mechanism_sketch.hpp"
+#include "ui/sketch/sketch_canvas.hpp"
 #include "ui/stage/stage_widget.hpp"
 #include "ui/windows/figure_sheet.hpp"
 #include "ui/windows/palette_dialog.hpp"
 #include "ui/workspace/playback.hpp"
+#include "ui/workspace/run_control.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal::stories_test {
@@ -64,6 +73,20 @@ class StoriesTest : public QObject {
         QVERIFY(widget && widget->isVisible() && widget->isEnabled());
         ++acts_;
         QTest::mouseClick(widget, Qt::LeftButton);
+    }
+    template <class Control>
+    Control* named(const QString& name) {
+        for (Control* each : window_->findChildren<Control*>())
+            if (each->accessibleName() == name && each->isVisible()) return each;
+        return nullptr;
+    }
+    /// What a box of choices offers under this name.
+    void choose(const QString& box, const QString& text) {
+        auto* const found = named<QComboBox>(box);
+        QVERIFY2(found && found->findText(text) >= 0, qPrintable(box + ": " + text));
+        ++acts_;
+        found->setCurrentIndex(found->findText(text));
+        emit found->activated(found->currentIndex());
     }
     LessonBar& lesson() { return *window_->findChild<LessonBar*>("lesson"); }
     /// Types into the palette and takes what is found first.
@@ -154,27 +177,66 @@ private slots:
         sheet->close();
     }
 
-    /// Two bodies, a stiff spring, a damper and a wall: which steps are usable?
+    /// Two bodies, a stiff spring, a damper and a wall, drawn: how large may h be for the angle to 1e-3?
     void engineer() {
         begin("engineer");
-        press("newLagrangian");
-        auto* const formula = window_->findChild<QPlainTextEdit*>("field.lagrangian");
-        QTest::keyClicks(formula, "m/2*x_t^2 + m/2*y_t^2 - k/2*(y - x)^2 - g*m*(x + y)");
-        window_->compareView().stage()->setFocus();
-        // A typed Lagrangian is checked beside the window before it is the scene's.
-        QTRY_VERIFY_WITH_TIMEOUT(
-            window_->workspace().scene().model.text("lagrangian").find("k/2*(y - x)^2") != std::string::npos,
-            20000);
+        press("drawMechanism");
+        SketchCanvas& sheet = window_->findChild<MechanismSketch*>()->canvas();
+        const auto tool = [&](Qt::Key key) {
+            ++acts_;
+            QTest::keyClick(&sheet, key);
+        };
+        const auto drag = [&](double x, double y, double toX, double toY) {
+            const auto at = [&](double along, double up) {
+                const Point p = sheet.camera().project({along, up, 0});
+                return QPoint(qRound(sheet.width() / 2.0 + p[0]), qRound(sheet.height() / 2.0 - p[1]));
+            };
+            ++acts_;
+            QTest::mousePress(&sheet, Qt::LeftButton, {}, at(x, y));
+            QTest::mouseMove(&sheet, at((x + toX) / 2, (y + toY) / 2));
+            QTest::mouseMove(&sheet, at(toX, toY));
+            QTest::mouseRelease(&sheet, Qt::LeftButton, {}, at(toX, toY));
+        };
+        tool(Qt::Key_F);
+        drag(0, 1, 0, 1);
+        tool(Qt::Key_B);
+        drag(0, 1, 0.8, 0.2);
+        tool(Qt::Key_P);
+        drag(1.6, -0.2, 1.6, -0.2);
+        tool(Qt::Key_S);
+        drag(0.8, 0.2, 1.6, -0.2);
+        picture("a-spring");
+        auto* const stiffness = window_->findChild<QWidget*>("value.stiffness");
+        QVERIFY(stiffness);
+        enter(stiffness->findChild<QLineEdit*>(), "300");
+        tool(Qt::Key_D);
+        drag(0.8, 0.2, 1.6, -0.2);
+        tool(Qt::Key_W);
+        drag(-1, -0.5, 2, -0.5);
         QVERIFY(waitForResults(*window_));
-        QVERIFY(window_->workspace().edit({{"/model/dissipation", "c/2*(y_t - x_t)^2"},
-                                           {"/model/parameters/c", 0.2},
-                                           {"/model/parameters/k", 1000.0}},
-                                          "damper"));
+        const System& drawn = *window_->workspace().resolved()->system;
+        QVERIFY(drawn.parts.find<Constraint>() && drawn.parts.find<Force>() && drawn.parts.find<Wall>());
+        picture("drawn");
+        tool(Qt::Key_Escape);
+        tool(Qt::Key_Escape);
+        auto* const errors = window_->findChild<QPushButton*>("useChoice");
+        QTRY_VERIFY(errors->isVisible());
+        picture("no-errors");
+        click(errors);
+        QTRY_VERIFY(window_->workspace().scene().reference.kind == ReferenceSpec::Kind::automatic);
         QVERIFY(waitForResults(*window_));
-        picture("two-bodies");
-        window_->findChild<QTabBar*>()->setCurrentIndex(2);
-        ++acts_;
-        picture("studies");
+        picture("errors");
+        QVERIFY(std::isfinite(window_->runControl().results()->schemes.front()->summary.maxError));
+        press("studies");
+        choose("Study", "How large may h be?");
+        choose("Metric", "error.phi_body1");
+        enter(window_->findChild<QLineEdit*>("wantedError"), "1e-3");
+        press("runStudy");
+        auto* const table = named<QTableWidget>("Results of the study");
+        QVERIFY(table);
+        QTRY_VERIFY_WITH_TIMEOUT(table->rowCount() > 0, 60000);
+        picture("steps-for-the-angle");
+        qInfo("%d clicks, drags and keys", acts_);
     }
 };
 
