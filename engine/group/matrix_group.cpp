@@ -12,6 +12,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/group/algebra_series.hpp"
+#include "engine/group/so3.hpp"
 
 namespace extremal {
 namespace {
@@ -54,6 +55,8 @@ MatrixGroup::MatrixGroup(const std::vector<Definition>& factors) {
                                std::to_string(entries_) + " entries; the limits are " +
                                std::to_string(maxDimension) + " and " + std::to_string(maxEntries),
                            "fewer factors, or smaller ones");
+    hasClosedForms_ = std::all_of(factors_.begin(), factors_.end(),
+                                  [](const Factor& f) { return f.isAbelian || f.rotations; });
     ofBasis_.resize(static_cast<std::size_t>(dimension_));
     for (const Bracket& b : brackets_) {
         ofBasis_[static_cast<std::size_t>(b.i)].push_back({b.k, b.j, b.value});
@@ -97,6 +100,7 @@ void MatrixGroup::addFactor(const Definition& definition) {
     dimension_ += f.d;
     entries_ += f.n * f.n;
     addBrackets(f, definition.pointer);
+    recognise(f);
     factors_.push_back(std::move(f));
 }
 
@@ -124,6 +128,21 @@ void MatrixGroup::addBrackets(const Factor& f, const std::string& pointer) {
                 if (std::abs(c(k)) > 1e-13 * std::max(largest, scale))
                     brackets_.push_back({f.coordinate + i, f.coordinate + j, f.coordinate + k, c(k)});
         }
+}
+
+void MatrixGroup::recognise(Factor& f) const {
+    std::vector<Eigen::Matrix3d> ad(3, Eigen::Matrix3d::Zero());
+    std::vector<Eigen::MatrixXd> basis(f.basis.begin(), f.basis.end());
+    f.isAbelian = true;
+    for (const Bracket& b : brackets_) {
+        const int i = b.i - f.coordinate, j = b.j - f.coordinate, k = b.k - f.coordinate;
+        if (i < 0 || i >= f.d) continue;
+        f.isAbelian = false;
+        if (f.d != 3) return;
+        ad[static_cast<std::size_t>(i)](k, j) += b.value;
+        ad[static_cast<std::size_t>(j)](k, i) -= b.value;
+    }
+    if (f.d == 3 && !f.isAbelian) f.rotations = rotationAlgebraOf(ad, basis);
 }
 
 MatrixGroup::Vector MatrixGroup::bracket(const Vector& x, const Vector& y) const {
@@ -187,7 +206,14 @@ MatrixGroup::Entries MatrixGroup::exponential(const Vector& x) const {
     Entries g = hat(x);
     for (const Factor& f : factors_) {
         Eigen::Map<Square> to(g.data() + f.entry, f.n, f.n);
-        to = exponentialLess1(to);
+        if (f.rotations && f.rotations->spin != RotationAlgebra::Spin::other) {
+            const double y = f.rotations->own(x.segment<3>(f.coordinate)).squaredNorm();
+            const auto c = so3::coefficients<0>(f.rotations->spin == RotationAlgebra::Spin::half ? y / 4 : y);
+            const Square X = to;
+            to = c.s * X + c.a[0] * X.lazyProduct(X);
+        } else {
+            to = exponentialLess1(to);
+        }
         to.diagonal().array() += 1;
     }
     return g;

@@ -15,8 +15,11 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "engine/group/rotation_algebra.hpp"
 
 namespace extremal {
 
@@ -35,7 +38,9 @@ public:
         std::vector<Square> basis;    ///< of d matrices, n x n
         Eigen::MatrixXd coordinates;  ///< d x n^2: of a matrix of the algebra, row by row
         int n = 0, d = 0;
-        int entry = 0, coordinate = 0;  ///< the first of its entries and of its coordinates
+        int entry = 0, coordinate = 0;             ///< the first of its entries and of its coordinates
+        std::optional<RotationAlgebra> rotations;  ///< where the algebra is so(3)
+        bool isAbelian = false;
     };
     /// The basis of a factor, and the pointer to it in messages.
     struct Definition {
@@ -48,6 +53,8 @@ public:
     explicit MatrixGroup(const std::vector<Definition>& factors);
 
     const std::vector<Factor>& factors() const { return factors_; }
+    /// Whether all factors are so(3) or abelian: functions of ad have closed forms.
+    bool hasClosedForms() const { return hasClosedForms_; }
     int dimension() const { return dimension_; }
     int entries() const { return entries_; }
 
@@ -91,11 +98,13 @@ private:
     };
     void addFactor(const Definition& definition);
     void addBrackets(const Factor& factor, const std::string& pointer);
+    void recognise(Factor& factor) const;
 
     std::vector<Factor> factors_;
     std::vector<Bracket> brackets_;
     std::vector<std::vector<Entry>> ofBasis_;  ///< ad of each basis vector
     int dimension_ = 0, entries_ = 0;
+    bool hasClosedForms_ = false;
 };
 
 }  // namespace extremal

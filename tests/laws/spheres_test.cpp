@@ -14,7 +14,9 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/model/group/sphere_system.hpp"
+#include "engine/model/symplectic_form.hpp"
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/tangent.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::spheres_test {
@@ -136,6 +138,42 @@ double verticalOf(const List& x) {
     return sum;
 }
 
+/// A state displaced along the spheres by the tangent vectors F (zeta x e_3) and by momenta in the frames
+/// that go there on shortest lines, and the opposite.
+State displaced(const GroupMechanics& on, const State& from, const Eigen::VectorXd& by) {
+    const MatrixGroup::Entries frames = spheres::framesAt(on, from.x.data());
+    State to = from;
+    const Eigen::Index d = on.dimension();
+    for (Eigen::Index k = 0; k < d; k += 3) {
+        const Eigen::Matrix3d F = spheres::frameOf(frames, static_cast<int>(k));
+        const Three zeta(by(2 * k / 3), by(2 * k / 3 + 1), 0),
+            change(by(2 * d / 3 + 2 * k / 3), by(2 * d / 3 + 2 * k / 3 + 1), 0),
+            mu = F.transpose() * threeAt(from.x, static_cast<std::size_t>(d + k)) + change;
+        const Eigen::Matrix3d R = F * so3::Exponential<double, 0>(zeta).rotation();
+        put(R.col(2), to.x, static_cast<std::size_t>(k));
+        put(R * mu, to.x, static_cast<std::size_t>(d + k));
+    }
+    return to;
+}
+Eigen::VectorXd difference(const GroupMechanics& on, const State& from, const State& to) {
+    const MatrixGroup::Entries frames = spheres::framesAt(on, from.x.data());
+    const Eigen::Index d = on.dimension();
+    Eigen::VectorXd v(4 * d / 3);
+    for (Eigen::Index k = 0; k < d; k += 3) {
+        const Eigen::Matrix3d F = spheres::frameOf(frames, static_cast<int>(k));
+        const Three x = F.transpose() * threeAt(to.x, static_cast<std::size_t>(k));
+        const double sine = std::hypot(x(0), x(1)), ratio = sine > 0 ? std::atan2(sine, x(2)) / sine : 1;
+        const Three zeta(-ratio * x(1), ratio * x(0), 0);
+        const auto muAt = [&](const State& s, const Eigen::Matrix3d& R) -> Three {
+            return R.transpose() * threeAt(s.x, static_cast<std::size_t>(d + k));
+        };
+        const Three change = muAt(to, F * so3::Exponential<double, 0>(zeta).rotation()) - muAt(from, F);
+        v.segment<2>(2 * k / 3) = zeta.head<2>();
+        v.segment<2>(2 * d / 3 + 2 * k / 3) = change.head<2>();
+    }
+    return v;
+}
+
 double distanceFromSpheres(const System& system, const State& state) {
     double value = 0;
     measureOf(system, "group-distance")->bind(state)(state.t, state.x.data(), &value);
@@ -240,8 +278,69 @@ private slots:
                   std::abs(verticalOf(state.x) - verticalOf(start.x)));
             QVERIFY(off < 1e-15);
             for (const double quarter : quarters) QVERIFY(std::abs(quarter / quarters[0] - 1) < 0.05);
-            // Measured 3e-12 of degree 2, which is 1.4e-16 in each step.
-            QVERIFY(std::abs(verticalOf(state.x) - verticalOf(start.x)) < 2e-11);
+            QVERIFY(std::abs(verticalOf(state.x) - verticalOf(start.x)) < 1e-13);
+        }
+    }
+
+    /// No force has a vertical component, and pi . x is not taken from pi: with that J_z moved by 6.7e-12.
+    void verticalMomentum() {
+        const SphereCase each = sphereCases()[0];
+        const System system = each.system();
+        const State start = each.start(system);
+        for (const bool isSymmetric : {false, true})
+            for (int s = 1; s <= 3; ++s) {
+                const auto end =
+                    after(*makeIntegrator(system, liePair(s, {"gauss", {}, {}}, isSymmetric), {0, 0.2}),
+                          start, 50000);
+                QVERIFY(end);
+                const double moved = std::abs(verticalOf(end->x) - verticalOf(start.x));
+                qInfo("s = %d%s: J_z moves by %.1e in 50000 steps", s, isSymmetric ? ", symmetric" : "",
+                      moved);
+                QVERIFY(moved < 1e-15);
+            }
+    }
+
+    /// Against differences of order 6, the canonical form, and transposed solves.
+    void tangents() {
+        for (const SphereCase& each : sphereCases()) {
+            const System system = each.system();
+            const GroupMechanics& on = *system.part<Spheres>().mechanics;
+            const auto n = static_cast<Eigen::Index>(each.places.size());
+            for (const int s : {1, 2, 3})
+                for (const bool isSymmetric : {false, true}) {
+                    const Discretization scheme = liePair(s, {"gauss", {}, {}}, isSymmetric);
+                    const auto integrator = makeIntegrator(system, scheme, {0, 0.1});
+                    State state = each.start(system);
+                    for (int k = 0; k < 5; ++k)
+                        QVERIFY(advance(*integrator, state).outcome == Outcome::converged);
+                    const State before = state;
+                    QVERIFY(advance(*integrator, state).outcome == Outcome::converged);
+                    const auto M = tangentMap(*integrator);
+                    QVERIFY(M);
+                    QCOMPARE(M->rows(), 4 * n / 3);
+                    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(M->rows(), M->cols());
+                    constexpr double delta = 2e-3;
+                    for (Eigen::Index j = 0; j < M->cols(); ++j)
+                        for (int k = 1; k <= 3; ++k)
+                            for (const int sign : {1, -1}) {
+                                State moved = displaced(
+                                    on, before, Eigen::VectorXd::Unit(M->rows(), j) * (sign * k * delta));
+                                QVERIFY(advance(*makeIntegrator(system, scheme, {0, 0.1}), moved).outcome ==
+                                        Outcome::converged);
+                                D.col(j) +=
+                                    difference(on, state, moved) *
+                                    (sign * centralDifferences[static_cast<std::size_t>(k - 1)] / delta);
+                            }
+                    const double apart = (*M - D).cwiseAbs().maxCoeff(),
+                                 form =
+                                     formDefect(SymplecticForm(system), before.x.data(), state.x.data(), *M),
+                                 transposed = transposedDefect(*integrator, *M);
+                    qInfo("%s, s = %d%s: differences %.1e, form %.1e, transposed %.1e", each.name, s,
+                          isSymmetric ? ", symmetric" : "", apart, form, transposed);
+                    QVERIFY2(apart < 1e-9, each.name);
+                    QVERIFY2(form < 1e-13, each.name);
+                    QVERIFY2(transposed < 1e-13, each.name);
+                }
         }
     }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A group given by its basis (group/matrix_group.hpp), as LieStep sees it: the chart by sweeps of brackets,
-/// and poses of the entries of g with the momentum J in space.
+/// A group given by its basis (group/matrix_group.hpp), as LieStep sees it: its chart (data_chart.hpp), and
+/// poses of the entries of g with the momentum J in space.
 ///
 /// Where a force has taken the impulse W (a momentum at the base point) the momenta at the ends satisfy
 /// J_end = J_base - Ad_{g_base^-1}^T W, and in the body mu = Ad_g^T J.
@@ -13,150 +13,16 @@
 /// lost. Of a pose g is the frames, and J is pi.
 #pragma once
 
-#include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <vector>
 
-#include "engine/group/algebra_series.hpp"
+#include "engine/family/lie/data_chart.hpp"
 #include "engine/group/group_invariants.hpp"
 #include "engine/model/group/group_mechanics.hpp"
 #include "engine/model/group/spheres.hpp"
 
 namespace extremal {
-
-/// The chart at xi. K = 2: second derivatives, to the accuracy of a Jacobian.
-template <int K>
-class DataChart {
-public:
-    using Vector = MatrixGroup::Vector;
-    using Matrix = MatrixGroup::Matrix;
-
-    DataChart(const MatrixGroup& group, const Vector& xi)
-        : group_(group),
-          xi_(xi),
-          terms_(series::termsFor(group.adNorm(xi), 0.1 * std::numeric_limits<double>::epsilon())) {}
-
-    const Vector& xi() const { return xi_; }
-
-    Vector rotateBack(const Vector& v) const {
-        return series::exponential(v, terms_, [&](const Vector& y) -> Vector { return -bracket(y); });
-    }
-    Vector rotateMomentum(const Vector& m) const {
-        return series::exponential(m, terms_, [&](const Vector& y) -> Vector { return -coadjoint(y); });
-    }
-    Vector rotateMomentumBack(const Vector& m) const {
-        return series::exponential(m, terms_, [&](const Vector& y) -> Vector { return coadjoint(y); });
-    }
-    Vector dexp(const Vector& v) const {
-        return series::phi(v, terms_, [&](const Vector& y) -> Vector { return -bracket(y); });
-    }
-    Vector dexpTransposed(const Vector& m) const {
-        return series::phi(m, terms_, [&](const Vector& y) -> Vector { return -coadjoint(y); });
-    }
-    Vector dexpRightTransposed(const Vector& m) const {
-        return series::phi(m, terms_, [&](const Vector& y) -> Vector { return coadjoint(y); });
-    }
-    Matrix dexpMatrix() const {
-        Matrix A(d(), d());
-        for (int k = 0; k < d(); ++k) A.col(k) = dexp(Vector::Unit(d(), k));
-        return A;
-    }
-    /// The matrix direction -> D_xi [dexp(xi)^T m] . direction (m fixed), and that of dexp(-xi)^T m.
-    Matrix derivativeOfTransposed(const Vector& m) const { return slopesOfPull(m, 1); }
-    Matrix derivativeOfRightTransposed(const Vector& m) const { return slopesOfPull(m, -1); }
-
-    /// eta = dexp(xi) v; keeps the sweep for what follows.
-    Vector sweep(const Vector& v) {
-        Vector eta = Vector::Zero(d());
-        double factorial = 1;
-        for (int n = 0; n < terms_; ++n) {
-            w_[at(n)] = n == 0 ? v : Vector(-bracket(w_[at(n - 1)]));
-            factorial *= n + 1;
-            eta += w_[at(n)] / factorial;
-        }
-        return eta;
-    }
-    /// dexp(xi)^T m, and (D_xi eta)^T m, of the curve of the last sweep.
-    void pull(const Vector& m, Vector& forXi, Vector& forV) {
-        sweepBack(m, 1, lambda_);
-        forV = lambda_[0];
-        forXi = Vector::Zero(d());
-        for (int n = 0; n + 1 < terms_; ++n) forXi += group_.coadjoint(w_[at(n)], lambda_[at(n + 1)]);
-    }
-    struct Derivatives {
-        Matrix A, D;  ///< dexp(xi), and that of dexp(xi) v by xi
-        Matrix B, H;  ///< of dexp(xi)^T m by xi, and the second ones of m . dexp(xi) v
-    };
-    /// Of the curve of the last sweep and the momentum of the last pull.
-    Derivatives derivatives() const {
-        Derivatives r;
-        r.A = dexpMatrix();
-        r.B = derivativeOfTransposed(lambdaSource());
-        r.D = r.H = Matrix::Zero(d(), d());
-        for (int k = 0; k < d(); ++k) {
-            std::array<Vector, series::mostTerms> slopes;
-            slopesBack(lambda_, k, 1, slopes);
-            Vector dw = Vector::Zero(d());
-            double factorial = 1;
-            for (int n = 0; n < terms_; ++n) {
-                factorial *= n + 1;
-                r.D.col(k) += dw / factorial;
-                if (n + 1 == terms_) break;
-                r.H.col(k) +=
-                    group_.coadjoint(dw, lambda_[at(n + 1)]) + group_.coadjoint(w_[at(n)], slopes[at(n + 1)]);
-                dw = (-group_.bracketOfBasis(k, w_[at(n)]) - bracket(dw)).eval();
-            }
-        }
-        return r;
-    }
-
-private:
-    using Sweep = std::array<Vector, series::mostTerms>;
-    static std::size_t at(int n) { return static_cast<std::size_t>(n); }
-    int d() const { return group_.dimension(); }
-    Vector bracket(const Vector& y) const { return group_.bracket(xi_, y); }
-    Vector coadjoint(const Vector& m) const { return group_.coadjoint(xi_, m); }
-    /// The last of the lambda is m / N!.
-    Vector lambdaSource() const {
-        double factorial = 1;
-        for (int n = 2; n <= terms_; ++n) factorial *= n;
-        return lambda_[at(terms_ - 1)] * factorial;
-    }
-    /// lambda_n = m/(n+1)! - sign ad^T lambda_{n+1}.
-    void sweepBack(const Vector& m, double sign, Sweep& lambda) const {
-        double factorial = 1;
-        for (int n = 2; n <= terms_; ++n) factorial *= n;
-        for (int n = terms_ - 1; n >= 0; --n) {
-            lambda[at(n)] = m / factorial;
-            factorial /= n + 1;
-            if (n + 1 < terms_) lambda[at(n)] -= sign * coadjoint(lambda[at(n + 1)]);
-        }
-    }
-    /// The derivatives of the lambda along basis vector k.
-    void slopesBack(const Sweep& lambda, int k, double sign, Sweep& slopes) const {
-        slopes[at(terms_ - 1)] = Vector::Zero(d());
-        for (int n = terms_ - 2; n >= 0; --n)
-            slopes[at(n)] =
-                -sign * (group_.coadjointOfBasis(k, lambda[at(n + 1)]) + coadjoint(slopes[at(n + 1)]));
-    }
-    Matrix slopesOfPull(const Vector& m, double sign) const {
-        Sweep lambda, slopes;
-        sweepBack(m, sign, lambda);
-        Matrix B(d(), d());
-        for (int k = 0; k < d(); ++k) {
-            slopesBack(lambda, k, sign, slopes);
-            B.col(k) = slopes[0];
-        }
-        return B;
-    }
-
-    const MatrixGroup& group_;
-    Vector xi_;
-    int terms_;
-    Sweep w_, lambda_;
-};
 
 struct GroupPose {
     MatrixGroup::Entries g;
@@ -228,7 +94,7 @@ public:
     /// Takes g back to the group, from which round-off takes it away by 1e-14 in so many steps.
     void settle(GroupPose& p, long long node) const {
         constexpr long long often = 100;
-        if (isOnSpheres()) return spheres::removeAlongPoints(p.g, p.J);
+        if (isOnSpheres()) return makeNormal(p);
         if (node % often == often - 1) invariants_->cure(p.g);
     }
     /// The series have no digits left.
@@ -237,6 +103,12 @@ public:
         return group_->logarithm(group_->product(group_->inverse(base.g), place.g), near);
     }
 
+    /// Momenta in the frames of spheres, as they are in space.
+    Vector framesTimes(const Element& g, const Vector& m) const {
+        Vector r(dimension());
+        for (int k = 0; k < dimension(); k += 3) r.segment<3>(k) = spheres::frameOf(g, k) * m.segment<3>(k);
+        return r;
+    }
     /// The xi without isotropy whose rotation carries e_3 where g carries it, on spheres.
     Vector horizontal(const Element& g) const {
         Vector xi = Vector::Zero(dimension());
@@ -260,6 +132,24 @@ public:
     }
 
 private:
+    /// Takes pi . x away from x: what round-off and the last correction of Newton's method leave of it comes
+    /// from x and is mostly of one sign, and taken from pi it would add up in momenta that are kept, 1.3e-16
+    /// a step. Where pi is so small that x would go further than that, it is taken from pi.
+    static void makeNormal(GroupPose& p) {
+        bool isSmall = false;
+        for (Eigen::Index k = 0; k < p.J.size(); k += 3) {
+            const Eigen::Vector3d pi = p.J.segment<3>(k);
+            double* const g = p.g.data() + 3 * k;
+            const double along = pi(0) * g[2] + pi(1) * g[5] + pi(2) * g[8], square = pi.squaredNorm();
+            if (along == 0) continue;
+            if (!(along * along <= 1e-24 * square)) {
+                isSmall = true;
+                continue;
+            }
+            for (int i = 0; i < 3; ++i) g[3 * i + 2] -= along / square * pi(i);
+        }
+        if (isSmall) spheres::removeAlongPoints(p.g, p.J);
+    }
     /// Ad_{g^-1}^T W.
     Vector inSpace(const Element& g, const Vector& W) const {
         if (W.isZero(0)) return Vector::Zero(dimension());

@@ -8,6 +8,7 @@
 #include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/lie/lie.hpp"
+#include "engine/family/lie/quaternion_step.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/family/parts/solver_methods.hpp"
@@ -43,9 +44,44 @@ SpaceEntry liePolynomial() {
     return e;
 }
 
+bool isInQuaternions(const Settings& space) { return space.type == "quaternion-polynomial"; }
+
+SpaceEntry quaternionPolynomial() {
+    SpaceEntry e;
+    e.item = {
+        "quaternion-polynomial",
+        "quaternion polynomial",
+        "Polynomials in the quaternion of a free body, whose momentum is constant: first order, and many "
+        "times cheaper a step.",
+        {integerField("degree", "s", 1, 8, nullptr, "Degree of the quaternion on one step.")},
+        {},
+        "a free rigid body"};
+    return e;
+}
+
+Properties describeQuaternions(const Discretization& d) {
+    const int s = d.space.integer("degree");
+    Properties p;
+    if (d.quadrature.type != "gauss" || d.quadrature.integer("nodes") != s ||
+        d.quadrature.integer("panels") > 1) {
+        p.refusal = "polynomials of degree " + std::to_string(s) + " in the quaternion take Gauss with " +
+                    std::to_string(s) + (s == 1 ? " node" : " nodes") +
+                    ": no other rule keeps its length and the form";
+        p.hint = "gauss with nodes " + std::to_string(s);
+    } else {
+        p = describeTable([&] { return lieTable(d.space, d.quadrature); });
+        p.stabilityLimit = std::numeric_limits<double>::infinity();
+    }
+    p.space = "polynomials of degree " + std::to_string(s) + " in the quaternion";
+    p.prefix = "quaternion ";
+    p.shortName = p.refusal.empty() ? "Q" + std::to_string(p.claims.order) : "-";
+    return p;
+}
+
 /// Order, exactness and refusals are those of the polynomials that xi is made of.
 Properties describeLie(const Discretization& discretization) {
     const auto& [space, quadrature, solver, impact] = discretization;
+    if (isInQuaternions(space)) return describeQuaternions(discretization);
     Properties p;
     if (isPlainRule(quadrature)) {
         p = describeTable([&d = discretization] { return lieTable(d.space, d.quadrature); });
@@ -70,7 +106,12 @@ Properties describeLie(const Discretization& discretization) {
 }
 
 /// A left-invariant Lagrangian that is typed says itself that g is not in the equations.
-std::string mismatchOfReduction(const Discretization& d, const System& system) {
+std::string mismatchOf(const Discretization& d, const System& system) {
+    if (isInQuaternions(d.space)) {
+        if (d.solver.type == "newton")
+            return "equations in the quaternion are solved by fixed-point iteration: leave \"method\" out";
+        return quaternionProblem(system);
+    }
     if (d.space.flag("reduced") || system.parts.find<Body>()) return {};
     return "g is in the equations of a typed Lagrangian where it occurs in its formula, and nowhere else: "
            "leave \"reduced\" out";
@@ -84,7 +125,7 @@ void checkRotation(const SchemeCase& scheme, Findings& findings) {
     constexpr std::array<double, 3> farthest = {1.25, 2.25, 3};  // of degrees 2, 3, 4
     const Settings& space = scheme.discretization.space;
     const int degree = space.integer("degree");
-    if (!scheme.system.parts.find<Body>()) return;
+    if (!scheme.system.parts.find<Body>() || isInQuaternions(space)) return;
     if (scheme.isComposed || degree < 2 || degree > 4) return;
     const std::vector<double>& x = scheme.initial.x;
     double rate = 0;
@@ -106,14 +147,30 @@ ReferencePlan trusted(const System& system, const State&, double) {
     return referenceBy("Lie group Gauss of degree 8", system, *namedScheme("lie-8"));
 }
 
-ChoiceGrid choices(const System&) {
+ChoiceGrid choices(const System& system) {
     std::vector<SpaceRow> rows;
     for (const int degree : {1, 2, 3, 4, 6, 8})
         rows.push_back({"Lie " + std::to_string(degree), "", lieSpace(degree, false)});
+    if (quaternionProblem(system).empty())
+        for (const int degree : {2, 3, 4, 6, 8})
+            rows.push_back({"quaternion " + std::to_string(degree),
+                            "q",
+                            {"quaternion-polynomial", {{"degree", static_cast<double>(degree)}}, {}}});
     return ruleChoices(rows);
 }
 
-WrittenAction written(const Discretization&) {
+WrittenAction written(const Discretization& d) {
+    if (isInQuaternions(d.space))
+        return {
+            "q(τ) is a polynomial of degree s in the quaternions with q(0) = q_0; π, the momentum in space, "
+            "is "
+            "constant, and μ = q* π q is that in the body.",
+            {{"S = h Σ_i b_i [2 Re(i z_i⁺ z_i′) − H(μ_i)],  H(μ) = μ·I⁻¹μ / 2,  z the spinor of q",
+              "S = h \\sum_i b_i \\bigl[ 2 \\operatorname{Re}(i z_i^+ z_i') - H(\\mu_i) \\bigr], \\qquad "
+              "H(\\mu) = "
+              "\\tfrac12 \\mu \\cdot I^{-1} \\mu"}},
+            {{"q_i′ = q_i (0, I⁻¹ μ_i) / 2 at the nodes",
+              "q_i' = \\tfrac12\\, q_i\\, (0, I^{-1} \\mu_i) \\quad \\text{at the nodes}"}}};
     return {
         "The curve is g(τ) = g_0 exp(ξ(τ)), ξ a polynomial in the Lie algebra with ξ(0) = 0; its "
         "coefficients are the unknowns.",
@@ -135,7 +192,7 @@ Family lie() {
         "lie", "Lie group", "Curves on Lie groups: SO(3), SE(3), or any given by a basis; and on spheres.",
         {},    {},          "a rigid body, a Lie group or points on spheres"};
     f.source = "Leok 2004, sec. 3 and 4";
-    f.spaces = {liePolynomial()};
+    f.spaces = {liePolynomial(), quaternionPolynomial()};
     f.takes = Takes::only<Body, LieGroup, Spheres>();
     f.completeRule = [](const Settings& space, const Settings& quadrature) {
         return completePlainRule(quadrature, space.integer("degree"), 1);
@@ -143,12 +200,14 @@ Family lie() {
     f.describe = describeLie;
     f.check = checkRotation;
     f.choices = choices;
-    f.rules = [](const Settings&) { return plainRules(); };
+    f.rules = [](const Settings& space) {
+        return isInQuaternions(space) ? std::vector<std::string>{"gauss"} : plainRules();
+    };
     f.written = written;
     f.make = makeLieIntegrator;
     f.parts.set(SolverMethods{{"newton"}});
     f.parts.set(TrustedScheme{trusted});
-    f.parts.set(SchemeCondition{mismatchOfReduction});
+    f.parts.set(SchemeCondition{mismatchOf});
     return f;
 }
 

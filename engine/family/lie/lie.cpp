@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/family/lie/lie.hpp"
 
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "engine/core/memo_cache.hpp"
+#include "engine/family/lie/body_poses.hpp"
 #include "engine/family/lie/data_lagrangian.hpp"
 #include "engine/family/lie/lie_step_build.hpp"
+#include "engine/family/lie/quaternion_step.hpp"
+#include "engine/family/lie/sphere_variations.hpp"
 #include "engine/integrator/condensed.hpp"
 #include "engine/model/group/lie_group.hpp"
 #include "engine/space/polynomial.hpp"
@@ -18,12 +23,36 @@ template class LieStep<double, DataGroup>;
 
 namespace {
 
+/// Poses from states and back: the group's own, but of rotations those of BodyPoses.
+template <class G>
+class StatePoses {
+public:
+    explicit StatePoses(const typename G::Mechanics& mechanics) : group_(mechanics) {}
+    typename G::Pose read(const std::vector<double>& x) const { return group_.read(x.data()); }
+    void put(const typename G::Pose& p, double* x) const { group_.write(p, x); }
+    void write(const typename G::Pose& p, std::vector<double>& x) { group_.write(p, x.data()); }
+    void forget() {}
+    void checkpoint(Archive&) {}
+    void varyBody(double*, int) const {}
+    void varyState(double*, int) const {}
+
+private:
+    G group_;
+};
+template <>
+class StatePoses<RotationGroup<double>> : public BodyPoses {
+public:
+    explicit StatePoses(const BodyMechanics<double>&) {}
+    explicit StatePoses(BodyForm form) : BodyPoses(std::move(form)) {}
+};
+
 template <class G>
 class Lie final : public Integrator {
 public:
-    Lie(const typename G::Mechanics& mechanics, const Table<double>& table, double step, bool isReduced,
-        bool isSymmetrised, const SolverPolicy& policy)
-        : mechanics_(mechanics),
+    Lie(const typename G::Mechanics& mechanics, StatePoses<G> poses, const Table<double>& table, double step,
+        bool isReduced, bool isSymmetrised, const SolverPolicy& policy)
+        : poses_(std::move(poses)),
+          mechanics_(mechanics),
           table_(table),
           policy_(policy),
           h_(step),
@@ -42,59 +71,76 @@ public:
     void begin(State&) override {
         adjoint_.forget();
         step_.forget();
+        poses_.forget();
     }
     StepReport advance(State& state, double until) override {
         StepReport report;
         report.step = h_;
         const G& group = step_.group();
-        typename G::Pose pose = group.read(state.x.data());
+        typename G::Pose pose = poses_.read(state.x);
         if (isSymmetrised_) report.outcome = adjoint_.advance(pose, report, stop());
         if (report.outcome == Outcome::converged) report.outcome = step_.advance(pose, report, stop());
         if (report.outcome != Outcome::converged) return report;
         group.settle(pose, state.node);
-        group.write(pose, state.x.data());
+        if constexpr (hasSpheres) end_ = pose;
+        poses_.write(pose, state.x);
         state.t = until;
         ++state.node;
         return report;
     }
     void denseOutput(double tau, std::span<double> x) const override {
-        const G& group = step_.group();
-        if (!isSymmetrised_) return group.write(step_.denseOutput(tau), x.data());
-        group.write(tau < 0.5 ? adjoint_.denseOutput(2 * tau) : step_.denseOutput(2 * tau - 1), x.data());
+        if (!isSymmetrised_) return poses_.put(step_.denseOutput(tau), x.data());
+        poses_.put(tau < 0.5 ? adjoint_.denseOutput(2 * tau) : step_.denseOutput(2 * tau - 1), x.data());
     }
 
     std::size_t tangentSize() const override {
-        if constexpr (requires { step_.group().isotropy(); })
-            if (step_.group().isOnSpheres()) return 0;
-        return 2 * static_cast<std::size_t>(step_.group().dimension());
-    }
-    std::string tangentProblem() const override {
-        return "how a frame turns about its point on a sphere is not a part of the state";
+        const auto d = static_cast<std::size_t>(step_.group().dimension());
+        return isOnSpheres() ? 4 * d / 3 : 2 * d;
     }
     bool applyTangent(std::span<double> W) override {
         const auto columns = static_cast<int>(W.size() / tangentSize());
-        return (!isSymmetrised_ || adjoint_.applyTangent(W.data(), columns)) &&
-               step_.applyTangent(W.data(), columns);
+        if constexpr (hasSpheres)
+            if (isOnSpheres()) {
+                const int spheres = step_.group().dimension() / 3;
+                std::vector<double> wide = spheres::variationsOfFrames(W.data(), spheres, columns);
+                if (!applyInGroup(wide.data(), columns)) return false;
+                spheres::variationsOfPoints(end_, wide, spheres, columns, W.data());
+                return true;
+            }
+        poses_.varyBody(W.data(), columns);
+        const bool isKnown = applyInGroup(W.data(), columns);
+        poses_.varyState(W.data(), columns);
+        return isKnown;
     }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Lie>(*this); }
     bool checkpoint(Archive& archive) override {
-        archive(adjoint_, step_);
+        archive(poses_, adjoint_, step_);
         return true;
     }
 
 private:
+    static constexpr bool hasSpheres = std::is_same_v<G, DataGroup>;
+    bool isOnSpheres() const {
+        if constexpr (hasSpheres) return step_.group().isOnSpheres();
+        return false;
+    }
+    bool applyInGroup(double* W, int columns) {
+        return (!isSymmetrised_ || adjoint_.applyTangent(W, columns)) && step_.applyTangent(W, columns);
+    }
     LieStep<double, G> adjoint() const { return {mechanics_, table_, h_ / 2, isReduced_, true, policy_}; }
     LieStep<double, G> own() const {
         return {mechanics_, table_, isSymmetrised_ ? h_ / 2 : h_, isReduced_, false, policy_};
     }
 
+    StatePoses<G> poses_;
     typename G::Mechanics mechanics_;
     Table<double> table_;
     SolverPolicy policy_;
     double h_;
     bool isReduced_, isSymmetrised_;
     LieStep<double, G> adjoint_, step_;
+    typename G::Pose end_;  ///< of the last step, on spheres
 };
 
 }  // namespace
@@ -109,21 +155,30 @@ Table<double> lieTable(const Settings& space, const Settings& quadrature) {
 
 std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& discretization,
                                               double step) {
+    if (discretization.space.type == "quaternion-polynomial")
+        return makeQuaternionIntegrator(system, discretization, step);
     const SolverPolicy policy = solverPolicy(discretization.solver, system);
     const Table<double> table = lieTable(discretization.space, discretization.quadrature);
     const bool isReduced = discretization.space.flag("reduced"),
                isSymmetrised = discretization.space.flag("symmetric");
-    if (const LieGroup* const group = system.parts.find<LieGroup>())
-        return std::make_unique<Lie<DataGroup>>(*group->mechanics, table, step, isReduced, isSymmetrised,
-                                                policy);
+    const auto made = [&]<class G>(std::type_identity<G>, const auto& mechanics, StatePoses<G> poses) {
+        return std::make_unique<Lie<G>>(mechanics, std::move(poses), table, step, isReduced, isSymmetrised,
+                                        policy);
+    };
+    using Rotations = RotationGroup<double>;
+    if (const LieGroup* const group = system.parts.find<LieGroup>()) {
+        const GroupMechanics& on = *group->mechanics;
+        if (const auto form = BodyForm::of(on))
+            return made(std::type_identity<Rotations>(), form->body(), StatePoses<Rotations>(*form));
+        return made(std::type_identity<DataGroup>(), on, StatePoses<DataGroup>(on));
+    }
     if (const Spheres* const spheres = system.parts.find<Spheres>())
-        return std::make_unique<Lie<DataGroup>>(*spheres->mechanics, table, step, isReduced, isSymmetrised,
-                                                policy);
+        return made(std::type_identity<DataGroup>(), *spheres->mechanics,
+                    StatePoses<DataGroup>(*spheres->mechanics));
     const BodyMechanics<double>& body = system.body();
-    if (body.dimension == 3)
-        return std::make_unique<Lie<RotationGroup<double>>>(body, table, step, isReduced, isSymmetrised,
-                                                            policy);
-    return std::make_unique<Lie<MotionGroup<double>>>(body, table, step, isReduced, isSymmetrised, policy);
+    if (body.dimension == 3) return made(std::type_identity<Rotations>(), body, StatePoses<Rotations>(body));
+    using Motions = MotionGroup<double>;
+    return made(std::type_identity<Motions>(), body, StatePoses<Motions>(body));
 }
 
 }  // namespace extremal

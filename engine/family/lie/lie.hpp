@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The integrator of the space lie-polynomial: LieStep on the system's group, or, symmetrised, half a step of
-/// its adjoint and then half a step of it, whose charts have their base point at the middle.
+/// its adjoint and then half a step of it, whose charts have their base point at the middle. Groups given as
+/// data that are rotations of a body in other coordinates are stepped as such. That of the space
+/// quaternion-polynomial: quaternion_step.hpp.
 #pragma once
 
 #include <memory>
@@ -13,8 +15,8 @@ namespace extremal {
 std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& discretization,
                                               double step);
 
-/// The table of the polynomials that xi is made of. Throws InvalidScene where space and rule do not go
-/// together.
+/// The table of the polynomials that xi, or the quaternion, is made of. Throws InvalidScene where space and
+/// rule do not go together.
 Table<double> lieTable(const Settings& space, const Settings& quadrature);
 
 }  // namespace extremal

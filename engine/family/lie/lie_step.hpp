@@ -128,6 +128,8 @@ private:
     typename G::Element baseElement_;
     Vector mu_;  ///< momentum at the start, in the body
     Vector W_;
+    /// W in space, on spheres: summed there node by node, a component that no force has is 0 to the last bit.
+    Vector inSpace_;
     Columns Y_, xi_, v_, force_, R_;
     Square atPoints_, fit_;  ///< (k, a): values at m points from Y, and the opposite
     Columns points_;

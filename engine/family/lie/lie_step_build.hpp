@@ -222,13 +222,18 @@ void LieStep<T, G>::correct() {
 template <class T, class G>
 void LieStep<T, G>::updateImpulse() {
     W_.setZero();
+    if constexpr (hasIsotropy) inSpace_ = Vector::Zero(d());
     placeFoot();
     if (lagrangian_.isFree()) return;
     for (int i = 0; i < nodes(); ++i) {
         const auto at = group_.template chart<0>(xi_.col(i));
-        const Vector f = lagrangian_.force(group_.times(baseElement_, at), at, v_.col(i));
+        const typename G::Element g = group_.times(baseElement_, at);
+        const Vector f = lagrangian_.force(g, at, v_.col(i));
+        const T weight = h_ * table_.weight(i);
         force_.col(i) = at.rotateMomentum(f);
-        W_ -= (h_ * table_.weight(i)) * force_.col(i);
+        W_ -= weight * force_.col(i);
+        if constexpr (hasIsotropy)
+            if (group_.isOnSpheres()) inSpace_ -= weight * group_.framesTimes(g, f);
     }
     report_->cost.evaluations += nodes();
 }
@@ -283,6 +288,8 @@ Outcome LieStep<T, G>::advance(Pose& pose, StepReport& report, const std::stop_t
         group_.carry(base_, baseElement_, W_, end);
         pose = end;
     }
+    if constexpr (hasIsotropy)
+        if (group_.isOnSpheres()) pose.J = known_.J + (isAdjoint_ ? inSpace_ : Vector(-inSpace_));
     return Outcome::converged;
 }
 

@@ -58,6 +58,8 @@ bool LieStep<T, G>::applyTangent(T* W, int columns) {
         Vector base = isAdjoint_ ? opposite.rotateBack(zeta) : Vector(zeta);
         Vector dW = vary(base, false);
         R_.col(m() - 1) -= isAdjoint_ ? end.dexpTransposed(dmu) : end.dexpRightTransposed(dmu - dW);
+        if constexpr (hasIsotropy)
+            for (const int k : group_.isotropy()) R_.row(k).setZero();  // xi_k = 0, whatever varies
         for (int a = 0; a < m(); ++a) part(a) = -R_.col(a);
         lu_.solve(flat_.data());
         const Vector dxi = part(m() - 1);

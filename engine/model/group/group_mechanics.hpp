@@ -22,8 +22,9 @@ struct GroupMechanics {
     std::shared_ptr<const MatrixGroup> group;
     std::shared_ptr<const GroupInvariants> invariants;  ///< of the group
     std::shared_ptr<const void> model;                  ///< first argument of the calls below
-    bool isInvariant = true;  ///< g does not occur in L: f, N and S are 0, and g may be null
-    bool isMixed = false;     ///< N is not 0 everywhere
+    bool isInvariant = true;         ///< g does not occur in L: f, N and S are 0, and g may be null
+    bool isMixed = false;            ///< N is not 0 everywhere
+    bool hasConstantMasses = false;  ///< M depends on nothing
     /// Coordinates along which the group moves nothing that L sees, on a space on which it acts: L does not
     /// depend on these velocities, which are held at 0, nor do momenta have these components.
     std::vector<int> isotropy = {};

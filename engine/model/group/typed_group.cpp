@@ -275,7 +275,7 @@ UsedEntry usedEntry(const MatrixGroup& group, int entry) {
 
 struct Built {
     TypedGroup model;
-    bool isInvariant = true, isMixed = false;
+    bool isInvariant = true, isMixed = false, hasConstantMasses = false;
 };
 
 Built build(const MatrixGroup& group, const typed::Formula& formula, const std::vector<int>& entries) {
@@ -309,6 +309,7 @@ Built build(const MatrixGroup& group, const typed::Formula& formula, const std::
         }
     made.model.jet = typed::Tape::of(graph, outputs, count);
     made.model.isQuadratic = !graph.dependsOn(masses, [d](int symbol) { return symbol < d; });
+    made.hasConstantMasses = !graph.dependsOn(masses, [](int) { return true; });
     return made;
 }
 
@@ -353,6 +354,7 @@ GroupMechanics mechanicsOf(const MatrixGroup& given, const Settings& settings, c
         Built built = build(*group, formula, entries);
         mechanics.isInvariant = built.isInvariant;
         mechanics.isMixed = built.isMixed;
+        mechanics.hasConstantMasses = built.hasConstantMasses;
         built.model.isotropy = own.isotropy;
         mechanics.model = std::make_shared<const TypedGroup>(std::move(built.model));
     } catch (const ExpressionError& e) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The largest Lyapunov exponent of the discrete motion so far, and MEGNO, which tells regular from chaotic
 /// motions long before: a variation of the state is carried along by the tangent maps of the steps.
+#include "engine/model/group/lie_group.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/observe/quantity_observable.hpp"
@@ -18,7 +19,7 @@ ObservableEntry lyapunov() {
          {},
          "a scheme with a tangent map"},
         {{"lyapunov", "λ", "", {}, {}}, {"megno", "Ȳ", "", {}, {}}}, {.vector = true}, false);
-    e.takes = mechanisms().with<Body, PhaseMechanics>();
+    e.takes = mechanisms().with<Body, LieGroup, Spheres, PhaseMechanics>();
     return e;
 }
 

@@ -23,7 +23,7 @@ ObservableEntry symplecticity() {
          {"symplecticity_accumulated", "max |PᵀJP − J| / max |P|²", "", {}, {}}},
         {.map = true}, true);
     e.takes = Takes::only<Mechanical, Body, LieGroup, Wave, ScalarField, Constraint, Wall, PhaseMechanics,
-                          Spins, OneForm>();
+                          Spins, OneForm, Spheres>();
     return e;
 }
 

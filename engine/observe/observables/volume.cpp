@@ -20,7 +20,7 @@ ObservableEntry volume() {
                              "a scheme with a tangent map"},
                             {{"volume", "det M − 1", "", {}, {}}}, {.map = true}, true);
     // The variables of a one-form are not canonical, and their volume is not kept by the flow either.
-    e.takes = Takes::only<Mechanical, Body, LieGroup, Constraint, PhaseMechanics, Spins>();
+    e.takes = Takes::only<Mechanical, Body, LieGroup, Constraint, PhaseMechanics, Spins, Spheres>();
     return e;
 }
 

@@ -16,6 +16,7 @@ namespace extremal::equations {
 namespace {
 
 std::string inTwoCharts(const Discretization& d) {
+    if (d.space.type == "quaternion-polynomial") return "of first order, without a Lagrangian in a chart";
     return d.space.flag("symmetric") ? "made of two half steps, each with a chart of its own" : "";
 }
 

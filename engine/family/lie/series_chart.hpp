@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The chart of any matrix group at xi, by sweeps of brackets (group/algebra_series.hpp). Second derivatives
+/// are to the accuracy of a Jacobian.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "engine/group/algebra_series.hpp"
+
+namespace extremal {
+
+struct ChartDerivatives {
+    MatrixGroup::Matrix A, D;  ///< dexp(xi), and the slope of dexp(xi) v by xi
+    MatrixGroup::Matrix B, H;  ///< that of dexp(xi)^T m by xi, and the second one of m . dexp(xi) v
+};
+
+class SeriesChart {
+public:
+    using Vector = MatrixGroup::Vector;
+    using Matrix = MatrixGroup::Matrix;
+
+    SeriesChart(const MatrixGroup& group, const Vector& xi)
+        : group_(group),
+          xi_(xi),
+          terms_(series::termsFor(group.adNorm(xi), 0.1 * std::numeric_limits<double>::epsilon())) {}
+
+    Vector rotateBack(const Vector& v) const {
+        return series::exponential(v, terms_, [&](const Vector& y) -> Vector { return -bracket(y); });
+    }
+    Vector rotateMomentum(const Vector& m) const {
+        return series::exponential(m, terms_, [&](const Vector& y) -> Vector { return -coadjoint(y); });
+    }
+    Vector rotateMomentumBack(const Vector& m) const {
+        return series::exponential(m, terms_, [&](const Vector& y) -> Vector { return coadjoint(y); });
+    }
+    Vector dexp(const Vector& v) const {
+        return series::phi(v, terms_, [&](const Vector& y) -> Vector { return -bracket(y); });
+    }
+    Vector dexpTransposed(const Vector& m) const {
+        return series::phi(m, terms_, [&](const Vector& y) -> Vector { return -coadjoint(y); });
+    }
+    Vector dexpRightTransposed(const Vector& m) const {
+        return series::phi(m, terms_, [&](const Vector& y) -> Vector { return coadjoint(y); });
+    }
+    Matrix dexpMatrix() const {
+        Matrix A(d(), d());
+        for (int k = 0; k < d(); ++k) A.col(k) = dexp(Vector::Unit(d(), k));
+        return A;
+    }
+    /// The matrix direction -> D_xi [dexp(xi)^T m] . direction (m fixed), and that of dexp(-xi)^T m.
+    Matrix derivativeOfTransposed(const Vector& m) const { return slopesOfPull(m, 1); }
+    Matrix derivativeOfRightTransposed(const Vector& m) const { return slopesOfPull(m, -1); }
+
+    /// eta = dexp(xi) v; keeps the sweep for what follows.
+    Vector sweep(const Vector& v) {
+        Vector eta = Vector::Zero(d());
+        double factorial = 1;
+        for (int n = 0; n < terms_; ++n) {
+            w_[at(n)] = n == 0 ? v : Vector(-bracket(w_[at(n - 1)]));
+            factorial *= n + 1;
+            eta += w_[at(n)] / factorial;
+        }
+        return eta;
+    }
+    /// dexp(xi)^T m, and (D_xi eta)^T m, of the curve of the last sweep.
+    void pull(const Vector& m, Vector& forXi, Vector& forV) {
+        sweepBack(m, 1, lambda_);
+        forV = lambda_[0];
+        forXi = Vector::Zero(d());
+        for (int n = 0; n + 1 < terms_; ++n) forXi += group_.coadjoint(w_[at(n)], lambda_[at(n + 1)]);
+    }
+    /// Of the curve of the last sweep and the momentum of the last pull.
+    ChartDerivatives derivatives() const {
+        ChartDerivatives r;
+        r.A = dexpMatrix();
+        r.B = derivativeOfTransposed(lambdaSource());
+        r.D = r.H = Matrix::Zero(d(), d());
+        for (int k = 0; k < d(); ++k) {
+            std::array<Vector, series::mostTerms> slopes;
+            slopesBack(lambda_, k, 1, slopes);
+            Vector dw = Vector::Zero(d());
+            double factorial = 1;
+            for (int n = 0; n < terms_; ++n) {
+                factorial *= n + 1;
+                r.D.col(k) += dw / factorial;
+                if (n + 1 == terms_) break;
+                r.H.col(k) +=
+                    group_.coadjoint(dw, lambda_[at(n + 1)]) + group_.coadjoint(w_[at(n)], slopes[at(n + 1)]);
+                dw = (-group_.bracketOfBasis(k, w_[at(n)]) - bracket(dw)).eval();
+            }
+        }
+        return r;
+    }
+
+private:
+    using Sweep = std::array<Vector, series::mostTerms>;
+    static std::size_t at(int n) { return static_cast<std::size_t>(n); }
+    int d() const { return group_.dimension(); }
+    Vector bracket(const Vector& y) const { return group_.bracket(xi_, y); }
+    Vector coadjoint(const Vector& m) const { return group_.coadjoint(xi_, m); }
+    /// The last of the lambda is m / N!.
+    Vector lambdaSource() const {
+        double factorial = 1;
+        for (int n = 2; n <= terms_; ++n) factorial *= n;
+        return lambda_[at(terms_ - 1)] * factorial;
+    }
+    /// lambda_n = m/(n+1)! - sign ad^T lambda_{n+1}.
+    void sweepBack(const Vector& m, double sign, Sweep& lambda) const {
+        double factorial = 1;
+        for (int n = 2; n <= terms_; ++n) factorial *= n;
+        for (int n = terms_ - 1; n >= 0; --n) {
+            lambda[at(n)] = m / factorial;
+            factorial /= n + 1;
+            if (n + 1 < terms_) lambda[at(n)] -= sign * coadjoint(lambda[at(n + 1)]);
+        }
+    }
+    /// The derivatives of the lambda along basis vector k.
+    void slopesBack(const Sweep& lambda, int k, double sign, Sweep& slopes) const {
+        slopes[at(terms_ - 1)] = Vector::Zero(d());
+        for (int n = terms_ - 2; n >= 0; --n)
+            slopes[at(n)] =
+                -sign * (group_.coadjointOfBasis(k, lambda[at(n + 1)]) + coadjoint(slopes[at(n + 1)]));
+    }
+    Matrix slopesOfPull(const Vector& m, double sign) const {
+        Sweep lambda, slopes;
+        sweepBack(m, sign, lambda);
+        Matrix B(d(), d());
+        for (int k = 0; k < d(); ++k) {
+            slopesBack(lambda, k, sign, slopes);
+            B.col(k) = slopes[0];
+        }
+        return B;
+    }
+
+    const MatrixGroup& group_;
+    Vector xi_;
+    int terms_;
+    Sweep w_, lambda_;
+};
+
+}  // namespace extremal
