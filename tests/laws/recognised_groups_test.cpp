@@ -285,6 +285,20 @@ private slots:
         QVERIFY(isFor(*namedScheme("quaternion-2"), system));
         const std::string weight = mismatch(*namedScheme("quaternion-2"), top("so3").system());
         QVERIFY2(weight.find("lie-polynomial steps it") != std::string::npos, weight.c_str());
+        // Neither is made: a step in quaternions would leave the weight out.
+        for (const auto& [made, pointer] :
+             {std::pair{*namedScheme("quaternion-2"), "/space/type"},
+              {liePair(2, {"gauss", {}, {}}, false, false), "/space/reduced"}}) {
+            std::string at = "made";
+            try {
+                (void)makeIntegrator(top("so3").system(), made, {0, 0.1});
+            } catch (const InvalidScene& e) {
+                at = e.problems()[0].pointer;
+            }
+            QCOMPARE(at, std::string(pointer));
+        }
+        QVERIFY_EXCEPTION_THROWN(
+            (void)makeIntegrator(laws::top().system(), *namedScheme("quaternion-2"), {0, 0.1}), InvalidScene);
     }
 
     /// J of a free body is the same to the last bit in any basis, and g on its group.

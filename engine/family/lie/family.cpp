@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/lie/lie.hpp"
@@ -184,6 +185,16 @@ WrittenAction written(const Discretization& d) {
           "S}{\\partial g_1}"}}};
 }
 
+/// What a discretization cannot do on a system is refused where its steps are made, whoever asks for them.
+std::unique_ptr<Integrator> makeChecked(const System& system, const Discretization& d, double step) {
+    if (const std::string problem = mismatchOf(d, system); !problem.empty()) {
+        if (!isInQuaternions(d.space)) throw InvalidScene("/space/reduced", problem, "leave it out");
+        if (d.solver.type == "newton") throw InvalidScene("/solver/method", problem, "auto");
+        throw InvalidScene("/space/type", problem, "lie-polynomial");
+    }
+    return makeLieIntegrator(system, d, step);
+}
+
 }  // namespace
 
 Family lie() {
@@ -204,7 +215,7 @@ Family lie() {
         return isInQuaternions(space) ? std::vector<std::string>{"gauss"} : plainRules();
     };
     f.written = written;
-    f.make = makeLieIntegrator;
+    f.make = makeChecked;
     f.parts.set(SolverMethods{{"newton"}});
     f.parts.set(TrustedScheme{trusted});
     f.parts.set(SchemeCondition{mismatchOf});
