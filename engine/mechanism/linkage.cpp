@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/model/mechanisms.hpp"
+#include "engine/model/parts/coordinate_groups.hpp"
 
 namespace extremal {
 namespace {
@@ -83,6 +84,7 @@ std::optional<LinkedParts> LinkedParts::of(const Parts& parts) {
     linked.lagrangian = *lagrangian;
     if (constraint) linked.constraint = *constraint;
     if (force) linked.force = *force;
+    if (const auto* const groups = parts.find<CoordinateGroups>()) linked.groups = groups->all;
     return linked;
 }
 
@@ -95,8 +97,13 @@ Linkage::Linkage(const LinkedParts& parts) : d_(parts.d), n_(parts.n) {
         }
     // Blocks of coordinates that the same constraints hold; one that is free is a block of its own.
     std::map<std::vector<int>, int> known;
-    std::vector<int> blockOf(at(d_));
+    std::vector<int> blockOf(at(d_), -1);
+    for (const std::vector<int>& group : parts.groups) {
+        for (const int i : group) blockOf[at(i)] = static_cast<int>(blocks_.size());
+        blocks_.push_back(group);
+    }
     for (int i = 0; i < d_; ++i) {
+        if (blockOf[at(i)] >= 0) continue;
         std::vector<int>& held = constraintsOf[at(i)];
         std::sort(held.begin(), held.end());
         int block = static_cast<int>(blocks_.size());

@@ -2,8 +2,9 @@
 /// Which coordinates of a mechanism are coupled, and in which blocks its linear systems are solved.
 ///
 /// Found by differentiation: L couples i and j where the Hessian has an entry, F where F_i depends on q_j or
-/// v_j, and a constraint couples all coordinates in it. Coordinates that the same constraints hold (x and y
-/// of one body) make a block; each constraint goes to a block that it holds, at most one less than there are
+/// v_j, and a constraint couples all coordinates in it. Coordinates that the model says belong together (the
+/// twelve of a body in space), and others that the same constraints hold (x and y of a ball on rods), make a
+/// block; each constraint goes to a block that it holds, at most one less than there are
 /// coordinates, so that the block [S, B; C, 0] is regular: in a chain or a tree the own rod of each body.
 /// Constraints that find no room close a loop, and are the border.
 #pragma once
@@ -24,6 +25,7 @@ struct LinkedParts {
     LagrangianEntries lagrangian;
     std::optional<Constraint> constraint;
     std::optional<Force> force;
+    std::vector<std::vector<int>> groups;  ///< model/parts/coordinate_groups.hpp
 
     /// Nothing where a part that binds the motion does not say its entries.
     static std::optional<LinkedParts> of(const Parts& parts);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/model/cartesian/element_kinds.hpp"
+#include "engine/model/spatial/space_kinds.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/read/pointer.hpp"
 #include "engine/scene/scene.hpp"
@@ -75,18 +75,21 @@ void addEventFields(const EventSpec& event, const std::vector<ModelParameter>& p
                           {}});
 }
 
-const cartesian::ElementKind* kindOf(const FieldInfo& info, const Value* elements) {
+const cartesian::ElementKind* kindOf(const std::string& model, const FieldInfo& info, const Value* elements) {
     const bool hasSome = elements && elements->isObject() && !elements->asObject().empty();
-    return hasSome && info.type == FieldType::json ? cartesian::findKind(info.key) : nullptr;
+    return hasSome && info.type == FieldType::json ? spatial::findKind(model, info.key) : nullptr;
 }
 
-/// One value of an element; of a place one row for x and one for y.
+/// One value of an element; of a place one row for each of its numbers.
 void addElementField(const FieldInfo& info, const Value& value, const std::string& place,
                      const QString& label, std::vector<FormField>& fields) {
-    const bool isPlace = info.type == FieldType::numbers && value.isArray() && value.asArray().size() == 2;
-    for (std::size_t i = 0; isPlace && i < 2; ++i) {
+    const bool isPlace = info.type == FieldType::numbers && value.isArray();
+    const std::size_t count = isPlace ? value.asArray().size() : 0;
+    for (std::size_t i = 0; i < count; ++i) {
         FieldInfo row = numberField(info.key, info.title, info.unit, 0, info.description);
-        fields.push_back({std::move(row), childPointer(place, i), label + (i == 0 ? " x" : " y"), {}});
+        const QString which = count == info.components.size() ? QString::fromStdString(info.components[i])
+                                                              : QString::number(i + 1);
+        fields.push_back({std::move(row), childPointer(place, i), label + ' ' + which, {}});
     }
     if (!isPlace) fields.push_back({info, place, label, {}});
 }
@@ -111,9 +114,9 @@ std::string shapeOfEvents(const Scene& scene) {
     return scene.events.empty() ? std::string() : shape;
 }
 
-bool addElementFields(const FieldInfo& info, const Value* elements, const std::string& place,
-                      std::vector<FormField>& fields) {
-    const cartesian::ElementKind* const kind = kindOf(info, elements);
+bool addElementFields(const std::string& model, const FieldInfo& info, const Value* elements,
+                      const std::string& place, std::vector<FormField>& fields) {
+    const cartesian::ElementKind* const kind = kindOf(model, info, elements);
     if (!kind) return false;
     for (const auto& [name, element] : elements->asObject()) {
         const std::string own = childPointer(place, name);
@@ -126,8 +129,8 @@ bool addElementFields(const FieldInfo& info, const Value* elements, const std::s
     return true;
 }
 
-std::string shapeOfElements(const FieldInfo& info, const Value* elements) {
-    if (!kindOf(info, elements)) return {};
+std::string shapeOfElements(const std::string& model, const FieldInfo& info, const Value* elements) {
+    if (!kindOf(model, info, elements)) return {};
     std::string shape = ' ' + info.key;
     for (const auto& [name, element] : elements->asObject()) {
         shape += ' ' + name;

@@ -17,9 +17,10 @@ std::vector<FormField> eventFields(const Scene& scene);
 std::string shapeOfEvents(const Scene& scene);
 
 /// A row for each value of each element, where the field is that of a kind of element ("rods") and there are
-/// some: "crank: length". Else false, and nothing is added. `place`: of the field in the scene.
-bool addElementFields(const FieldInfo& info, const Value* elements, const std::string& place,
-                      std::vector<FormField>& fields);
-std::string shapeOfElements(const FieldInfo& info, const Value* elements);
+/// some: "crank: length". Else false, and nothing is added. `model`: its type; `place`: of the field in the
+/// scene.
+bool addElementFields(const std::string& model, const FieldInfo& info, const Value* elements,
+                      const std::string& place, std::vector<FormField>& fields);
+std::string shapeOfElements(const std::string& model, const FieldInfo& info, const Value* elements);
 
 }  // namespace extremal

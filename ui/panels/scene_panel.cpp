@@ -71,7 +71,7 @@ void addTerms(const FieldInfo& info, const Value& terms, const std::string& plac
 void addFields(const Workspace& workspace, const FieldInfo& info, const std::string& place,
                std::vector<FormField>& fields) {
     const Value* value = valueAt(workspace.document(), place);
-    if (addElementFields(info, value, place, fields)) return;
+    if (addElementFields(workspace.scene().model.type, info, value, place, fields)) return;
     if (!hasRows(info, value)) {
         fields.push_back({info, place, {}, {}});
         return;
@@ -108,7 +108,7 @@ std::string shapeOf(const Workspace& workspace, const std::vector<FieldInfo>& in
     std::string shape;
     for (const FieldInfo& info : infos) {
         const Value* value = valueAt(workspace.document(), part + info.key);
-        shape += shapeOfElements(info, value);
+        shape += shapeOfElements(workspace.scene().model.type, info, value);
         if (!hasRows(info, value)) continue;
         shape += ' ' + info.key;
         for (const Value::Member& member : value->asObject()) shape += '.' + member.first;

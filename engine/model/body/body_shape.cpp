@@ -108,17 +108,32 @@ BodyShape poinsotEllipsoid(const BodyMechanics<double>& body, const double* x, d
     return shape;
 }
 
+namespace {
+
+/// The way from body axes to the stage; R column after column.
+auto placing(const std::array<double, 3>& centre, const double* R) {
+    return [centre, R](double a, double b, double c) {
+        std::array<double, 3> x = centre;
+        for (std::size_t i = 0; i < 3; ++i) x[i] += R[i] * a + R[3 + i] * b + R[6 + i] * c;
+        return onStage(x[0], x[1], x[2]);
+    };
+}
+
+}  // namespace
+
+void drawSolid(const BodyShape& shape, const std::array<double, 3>& centre, const double* R,
+               Drawing& drawing) {
+    const auto at = placing(centre, R);
+    drawing.shapes.push_back(shape.isEllipsoid ? ellipsoidSolid(shape.half, at) : boxSolid(shape.half, at));
+    if (shape.isEllipsoid) addSections(shape.half, at, drawing);
+}
+
 void drawBody(const BodyShape& shape, const std::array<double, 3>& centre, const double* x,
               Drawing& drawing) {
-    using Vector = so3::Vector<double>;
     const so3::Matrix<double> R = so3::matrixAt(x);
-    const auto at = [&](double a, double b, double c) {
-        const Vector r = R * Vector(a, b, c);
-        return onStage(centre[0] + r(0), centre[1] + r(1), centre[2] + r(2));
-    };
+    const auto at = placing(centre, R.data());
+    drawSolid(shape, centre, R.data(), drawing);
     const auto& half = shape.half;
-    drawing.shapes.push_back(shape.isEllipsoid ? ellipsoidSolid(half, at) : boxSolid(half, at));
-    if (shape.isEllipsoid) addSections(half, at, drawing);
     const double size = std::sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     for (std::size_t i = 0; i < 3; ++i) {
         std::array<double, 3> from{}, to{}, word{};

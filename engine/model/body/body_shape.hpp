@@ -26,6 +26,9 @@ BodyShape shapeOf(const BodyMechanics<double>& body, const Settings& settings);
 /// distance.
 BodyShape poinsotEllipsoid(const BodyMechanics<double>& body, const double* x, double distance);
 
+/// Adds the body around `centre`, turned by R, as a solid alone.
+void drawSolid(const BodyShape& shape, const std::array<double, 3>& centre, const double* R,
+               Drawing& drawing);
 /// Adds the body around `centre` (space axes), turned by the attitude of x, and its axes where they leave it,
 /// with their numbers.
 void drawBody(const BodyShape& shape, const std::array<double, 3>& centre, const double* x, Drawing& drawing);

@@ -52,16 +52,9 @@ private:
     const std::string& nameOf(std::size_t point) const { return all_.points[point].name; }
 
     bool checkEnds(const Link& link, const std::string& pointer, const std::string& what) {
-        const PointElement &from = all_.points[link.from], &to = all_.points[link.to];
-        if (link.from == link.to)
-            add(pointer, "both ends are the point " + from.name, "two points");
-        else if (from.isFixed && to.isFixed)
-            add(pointer, "both ends are fixed: the " + what + " changes nothing", "leave it out");
-        else if (from.body && from.body == to.body)
-            add(pointer, "both ends belong to the body " + all_.bodies[*from.body].name, "leave it out");
-        else
-            return true;
-        return false;
+        std::optional<Problem> problem = endsProblem(all_, link, pointer, what);
+        if (problem) problems_.push_back(*std::move(problem));
+        return !problem;
     }
     void checkRod(const RodElement& rod) {
         const std::string pointer = "/rods/" + rod.name;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,20 @@
 #include "engine/model/cartesian/elements.hpp"
 
 namespace extremal::cartesian {
+
+/// What is wrong with the ends of a link of elements in the plane or in space; nothing where all is well.
+template <class All>
+std::optional<Problem> endsProblem(const All& all, const Link& link, const std::string& pointer,
+                                   const std::string& what) {
+    const auto &from = all.points[link.from], &to = all.points[link.to];
+    if (link.from == link.to) return Problem{pointer, "both ends are the point " + from.name, "two points"};
+    if (from.isFixed && to.isFixed)
+        return Problem{pointer, "both ends are fixed: the " + what + " changes nothing", "leave it out"};
+    if (from.body && from.body == to.body)
+        return Problem{pointer, "both ends belong to the body " + all.bodies[*from.body].name,
+                       "leave it out"};
+    return {};
+}
 
 /// Empty where all is well.
 std::vector<Problem> geometryProblems(const Elements& elements);

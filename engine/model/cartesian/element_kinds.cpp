@@ -5,7 +5,6 @@
 #include <utility>
 
 namespace extremal::cartesian {
-namespace {
 
 FieldInfo nameField(const char* key, const char* description) {
     return textField(key, "", nullptr, description);
@@ -16,6 +15,8 @@ FieldInfo leftOut(FieldInfo field) {
     field.isOptional = true;
     return field;
 }
+
+namespace {
 
 FieldInfo placeField(const char* key, const char* unit, Value fallback, const char* description) {
     return numbers(key, key, unit, {"x", "y"}, std::move(fallback), description);

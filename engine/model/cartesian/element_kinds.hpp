@@ -23,6 +23,9 @@ struct ElementKind {
 };
 
 const std::vector<ElementKind>& elementKinds();
+/// The name of another element; a field that may be left out.
+FieldInfo nameField(const char* key, const char* description);
+FieldInfo leftOut(FieldInfo field);
 /// Null: there is no such key.
 const ElementKind* findKind(std::string_view key);
 

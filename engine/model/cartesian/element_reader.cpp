@@ -110,16 +110,29 @@ std::optional<Amount> ElementReader::numberIfGiven(std::string_view key) const {
     return number(key);
 }
 
-Vector ElementReader::vector(std::string_view key) const {
+std::vector<Amount> ElementReader::amounts(std::string_view key, std::size_t orCount) const {
     const FieldInfo& info = field(key);
+    const std::size_t count = info.components.size();
     const Value* const given = value(key) ? value(key) : &info.fallback;
     if (given->isNull()) return {};
-    if (!given->isArray() || given->asArray().size() != 2) {
-        error(key, "must be two numbers, [x, y]", info.description);
-        return {};
+    if (!given->isArray() || (given->asArray().size() != count && given->asArray().size() != orCount)) {
+        std::string names;
+        for (const std::string& name : info.components) names += (names.empty() ? "" : ", ") + name;
+        error(key,
+              "must be " + (count == 2 ? std::string("two") : std::to_string(count)) + " numbers, [" + names +
+                  "]" + (orCount > 0 ? ", or " + std::to_string(orCount) : ""),
+              info.description);
+        return std::vector<Amount>(count);
     }
-    return {inRange(given->asArray()[0], pointer(key) + "/0", info),
-            inRange(given->asArray()[1], pointer(key) + "/1", info)};
+    std::vector<Amount> all;
+    for (std::size_t i = 0; i < given->asArray().size(); ++i)
+        all.push_back(inRange(given->asArray()[i], pointer(key) + "/" + std::to_string(i), info));
+    return all;
+}
+
+Vector ElementReader::vector(std::string_view key) const {
+    const std::vector<Amount> given = amounts(key);
+    return given.empty() ? Vector{} : Vector{given[0], given[1]};
 }
 
 bool ElementReader::flag(std::string_view key) const {

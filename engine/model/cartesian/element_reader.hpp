@@ -34,6 +34,9 @@ public:
     /// The default where it is left out.
     Amount number(std::string_view key) const;
     std::optional<Amount> numberIfGiven(std::string_view key) const;
+    /// As many numbers as the field has components, or `orCount` of them; nothing where it is left out and
+    /// has no default.
+    std::vector<Amount> amounts(std::string_view key, std::size_t orCount = 0) const;
     Vector vector(std::string_view key) const;
     bool flag(std::string_view key) const;
     std::string text(std::string_view key) const;

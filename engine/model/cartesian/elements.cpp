@@ -2,29 +2,23 @@
 #include "engine/model/cartesian/elements.hpp"
 
 #include <cmath>
-#include <map>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/text/expression.hpp"
-#include "engine/core/text/text.hpp"
 #include "engine/model/cartesian/element_checks.hpp"
-#include "engine/model/cartesian/element_reader.hpp"
+#include "engine/model/cartesian/elements_reading.hpp"
 
 namespace extremal::cartesian {
 namespace {
 
-class Reading {
+class Reading : ElementsReading {
 public:
-    explicit Reading(const Settings& settings) : settings_(settings) {
-        if (const Value* const parameters = settings.find("parameters"); parameters && parameters->isObject())
-            for (const auto& [name, value] : parameters->asObject())
-                all_.parameters.emplace_back(name, value.asNumber());
+    explicit Reading(const Settings& settings) : ElementsReading(settings, elementKinds()) {
+        all_.parameters = parameters_;
         // Its formula is one in parameters, which have their values already.
         all_.gravity = {settings.number("gravity"), {}};
     }
 
     Elements read() {
-        checkNames();
         each("bodies", [&](const ElementReader& r) { readBody(r); });
         each("points", [&](const ElementReader& r) { readPoint(r); });
         each("rods", [&](const ElementReader& r) {
@@ -47,65 +41,8 @@ public:
     }
 
 private:
-    const Value::Object& of(const char* key) {
-        static const Value::Object empty;
-        const Value* const value = settings_.find(key);
-        return value && value->isObject() ? value->asObject() : empty;
-    }
-    template <class Read>
-    void each(const char* key, Read readOne) {
-        const ElementKind& kind = *findKind(key);
-        for (const auto& [name, given] : of(key))
-            if (given.isObject())
-                readOne(ElementReader(kind, name, given, all_.parameters, problems_));
-            else
-                ElementReader(kind, name, given, all_.parameters, problems_);
-    }
-
-    /// Every element has a name of its own, which a formula could have.
-    void checkNames() {
-        std::map<std::string, std::string> taken;
-        for (const auto& [name, value] : all_.parameters)
-            if (const std::string problem = nameProblem(name); !problem.empty())
-                problems_.push_back({"/parameters/" + name, "the name \"" + name + "\" " + problem, {}});
-        for (const ElementKind& kind : elementKinds()) {
-            const Value* const value = settings_.find(kind.key);
-            if (value && !value->isNull() && !value->isObject())
-                problems_.push_back({"/" + kind.key, "needs a name for each " + kind.title,
-                                     "{\"" + kind.title + "1\": {..}}"});
-            for (const auto& [name, given] : of(kind.key.c_str())) {
-                const std::string pointer = "/" + kind.key + "/" + name;
-                if (const std::string problem = nameProblem(name); !problem.empty())
-                    problems_.push_back({pointer, "the name \"" + name + "\" " + problem,
-                                         "a letter, then letters, digits and _"});
-                const auto [there, isNew] = taken.emplace(name, kind.title);
-                if (!isNew)
-                    problems_.push_back(
-                        {pointer, "the name \"" + name + "\" is that of a " + there->second + " as well",
-                         "every element has a name of its own"});
-                if (kind.key == "points") pointNames_.push_back(name);
-                if (kind.key == "bodies") bodyNames_.push_back(name);
-                if (kind.key == "rods") rodNames_.push_back(name);
-            }
-        }
-    }
-
-    std::size_t placeIn(const std::vector<std::string>& names, const std::string& name, const char* what,
-                        const std::string& pointer) {
-        for (std::size_t i = 0; i < names.size(); ++i)
-            if (names[i] == name) return i;
-        if (!name.empty())
-            problems_.push_back({pointer, std::string("there is no ") + what + " \"" + name + "\"",
-                                 names.empty() ? std::string("add a ") + what : suggestName(name, names)});
-        return 0;
-    }
-    std::size_t point(const ElementReader& r, const char* key) {
-        return placeIn(pointNames_, r.text(key), "point", r.pointer(key));
-    }
-    std::optional<std::size_t> body(const ElementReader& r) {
-        if (!r.has("body")) return {};
-        return placeIn(bodyNames_, r.text("body"), "body", r.pointer("body"));
-    }
+    std::size_t point(const ElementReader& r, const char* key) { return place("points", r, key); }
+    std::optional<std::size_t> body(const ElementReader& r) { return placeIfGiven("bodies", r, "body"); }
     Link link(const ElementReader& r) { return {r.name(), point(r, "from"), point(r, "to")}; }
 
     void readBody(const ElementReader& r) {
@@ -116,33 +53,21 @@ private:
         PointElement made{r.name(),        r.numberIfGiven("mass"),
                           r.vector("at"),  r.vector("velocity"),
                           r.flag("fixed"), body(r)};
-        if (made.body && made.isFixed)
-            r.error("fixed", "belongs to the body " + r.text("body"), "leave out one");
-        if (made.body && made.mass)
-            r.error("mass", "the mass is that of the body " + r.text("body"), "leave it out");
-        if (made.isFree() && !r.has("mass"))
-            r.error("mass", "is required: the point moves",
-                    "or \"fixed\": true, or the body that it belongs to");
-        if (!made.isFree() && r.has("velocity"))
-            r.error("velocity", made.isFixed ? "the point is fixed" : "it follows from the body",
-                    "leave it out");
+        checkPoint(r, made.body.has_value(), made.isFixed);
         all_.points.push_back(std::move(made));
     }
     void readDamper(const ElementReader& r) {
         DamperElement made{r.name(), {}, {}, body(r), r.number("damping")};
         if (r.has("from")) made.from = point(r, "from");
         if (r.has("to")) made.to = point(r, "to");
-        if (made.body.has_value() == made.from.has_value())
-            r.error({}, "needs the point that it begins at, or a body",
-                    "\"from\": \"A\", or \"body\": \"B\"");
-        if (made.to && !made.from) r.error("from", "is required: a damper has two ends", "or the body alone");
+        checkDamper(r, made.from.has_value(), made.to.has_value(), made.body.has_value());
         all_.dampers.push_back(std::move(made));
     }
     void readMotor(const ElementReader& r) {
         MotorElement made;
         made.name = r.name();
         made.body = body(r);
-        if (r.has("rod")) made.rod = placeIn(rodNames_, r.text("rod"), "rod", r.pointer("rod"));
+        made.rod = placeIfGiven("rods", r, "rod");
         if (made.body.has_value() == made.rod.has_value())
             r.error({}, "needs a body or a rod to turn", "\"body\": \"B\", or \"rod\": \"crank\"");
         const int drives = (r.has("torque") ? 1 : 0) + (r.has("angle") ? 1 : 0) + (r.has("speed") ? 1 : 0);
@@ -180,7 +105,7 @@ private:
         if (!isDisc) made.second = r.vector(isBox ? "opposite" : "normal");
         if (isDisc && r.has("radius")) made.radius = r.number("radius");
         for (const std::string& name : r.names("points"))
-            made.points.push_back(placeIn(pointNames_, name, "point", r.pointer("points")));
+            made.points.push_back(placeOf("points", name, r.pointer("points")));
         if (!r.has("points"))
             for (std::size_t k = 0; k < all_.points.size(); ++k)
                 if (!all_.points[k].isFixed) made.points.push_back(k);
@@ -188,10 +113,7 @@ private:
         all_.walls.push_back(std::move(made));
     }
 
-    const Settings& settings_;
     Elements all_;
-    std::vector<std::string> pointNames_, bodyNames_, rodNames_;
-    std::vector<Problem> problems_;
 };
 
 }  // namespace

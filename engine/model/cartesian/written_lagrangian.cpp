@@ -3,55 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
-#include "engine/core/problem.hpp"
-#include "engine/core/text/expression.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/cartesian/element_checks.hpp"
+#include "engine/model/cartesian/form_writer.hpp"
 #include "engine/model/cartesian/point_formulas.hpp"
 
 namespace extremal::cartesian {
 namespace {
 
-/// Formulas by name, in the order in which they are first named.
-class Texts {
+class Writing : FormWriter {
 public:
-    void add(const std::string& name, const std::string& term) {
-        for (auto& [known, text] : all_)
-            if (known == name) {
-                text = Value(sum(text.asString(), term));
-                return;
-            }
-        all_.emplace_back(name, term);
-    }
-    bool isEmpty() const { return all_.empty(); }
-    Value value() const { return Value(all_); }
-
-private:
-    Value::Object all_;
-};
-
-class Writing {
-public:
-    explicit Writing(const Elements& elements) : all_(elements) {
-        for (const auto& [name, value] : elements.parameters) {
-            parameters_.emplace_back(name, value);
-            taken_.insert(name);
-        }
+    explicit Writing(const Elements& elements) : FormWriter(elements.parameters), all_(elements) {
         for (const PointElement& p : elements.points)
-            if (p.isFree()) coordinates("/points/" + p.name, p.name, false, p.at, p.velocity);
+            if (p.isFree()) coordinates("/points/" + p.name, p.name, p.at, p.velocity);
         for (const BodyElement& b : elements.bodies) {
-            coordinates("/bodies/" + b.name, b.name, true, b.at, b.velocity);
-            form_.q.push_back(b.angle.value);
-            form_.v.push_back(b.spin.value);
+            const std::string pointer = "/bodies/" + b.name;
+            coordinates(pointer, b.name, b.at, b.velocity);
+            addCoordinate("phi_" + b.name, b.angle.value, b.spin.value, pointer);
         }
         for (std::size_t k = 0; k < elements.points.size(); ++k) points_.push_back(formulasOf(elements, k));
     }
 
     WrittenForm write() {
-        form_.origins.emplace_back("/constraints", "");
-        form_.origins.emplace_back("/lagrangian", "");
         writeKinetic();
         for (const SpringElement& s : all_.springs) writeSpring(s);
         for (const RodElement& r : all_.rods) writeRod(r);
@@ -60,57 +34,15 @@ public:
         for (const DamperElement& d : all_.dampers) writeDamper(d);
         for (const MotorElement& m : all_.motors) writeMotor(m);
         for (const WallElement& w : all_.walls) writeWall(w);
-        if (lagrangian_.size() > maxExpressionLength)
-            throw InvalidScene("/points",
-                               "make a Lagrangian of " + std::to_string(lagrangian_.size()) +
-                                   " characters, the limit is " + std::to_string(maxExpressionLength),
-                               "fewer points; long chains are typed by index in a Lagrangian");
-        Settings& s = form_.settings;
-        s.type = "lagrangian";
-        s.keys = {
-            {"coordinates", Value(names_)}, {"parameters", Value(parameters_)}, {"lagrangian", lagrangian_}};
-        if (!constraints_.isEmpty()) s.keys.emplace_back("constraints", constraints_.value());
-        if (!forces_.isEmpty()) s.keys.emplace_back("forces", forces_.value());
-        if (!dissipation_.empty()) s.keys.emplace_back("dissipation", dissipation_);
-        if (!walls_.empty()) s.keys.emplace_back("walls", Value(walls_));
-        return std::move(form_);
+        return written();
     }
 
 private:
-    void coordinates(const std::string& pointer, const std::string& name, bool turns, const Vector& at,
+    void coordinates(const std::string& pointer, const std::string& name, const Vector& at,
                      const Vector& velocity) {
-        const auto add = [&](const std::string& letter) {
-            const std::string coordinate = letter + "_" + name;
-            if (taken_.contains(coordinate))
-                throw InvalidScene(
-                    pointer,
-                    "has the coordinate " + coordinate + ", which is the name of a parameter as well",
-                    "rename one of them");
-            taken_.insert(coordinate);
-            names_.emplace_back(coordinate);
-        };
-        add("x");
-        add("y");
-        if (turns) add("phi");
-        for (const Amount& a : {at.x, at.y}) form_.q.push_back(a.value);
-        for (const Amount& a : {velocity.x, velocity.y}) form_.v.push_back(a.value);
+        addCoordinate("x_" + name, at.x.value, velocity.x.value, pointer);
+        addCoordinate("y_" + name, at.y.value, velocity.y.value, pointer);
     }
-    /// A number as a parameter, where its name is free; a formula as it is.
-    std::string amount(const Amount& given, const std::string& name, const std::string& pointer) {
-        if (!given.formula.empty() || taken_.contains(name) || !nameProblem(name).empty())
-            return textOf(given);
-        taken_.insert(name);
-        parameters_.emplace_back(name, given.value);
-        form_.origins.emplace_back("/parameters/" + name, pointer);
-        return name;
-    }
-    void addTerm(const std::string& term) { lagrangian_ += (lagrangian_.empty() ? "" : " + ") + term; }
-    void subtractTerm(const std::string& term) { lagrangian_ += " - " + term; }
-    void addConstraint(const std::string& name, const std::string& formula, const std::string& pointer) {
-        constraints_.add(name, formula);
-        form_.origins.emplace_back("/constraints/" + name, pointer);
-    }
-    void damp(const std::string& term) { dissipation_ += (dissipation_.empty() ? "" : " + ") + term; }
 
     void writeKinetic() {
         std::vector<std::pair<std::string, std::string>> weights;  // and their heights
@@ -235,11 +167,6 @@ private:
             if (arm != "0") force(slope.coordinate, perSquare + "*(" + arm + ")", pointer);
         }
     }
-    void force(const std::string& coordinate, const std::string& formula, const std::string& pointer) {
-        forces_.add(coordinate, formula);
-        form_.origins.emplace_back("/forces/" + coordinate, pointer);
-    }
-
     void writeWall(const WallElement& wall) {
         for (const std::size_t k : wall.points)
             for (const Side& side : sidesOf(wall)) {
@@ -260,20 +187,12 @@ private:
                 }
                 const std::string name =
                     wall.name + (wall.points.size() > 1 ? "_" + all_.points[k].name : "") + side.ending;
-                walls_.emplace_back(
-                    name, Value(Value::Object{{"gap", gap}, {"restitution", wall.restitution.value}}));
-                form_.origins.emplace_back("/walls/" + name, "/walls/" + wall.name);
+                addWall(name, gap, wall.restitution, "/walls/" + wall.name);
             }
     }
 
     const Elements& all_;
-    WrittenForm form_;
-    Value::Array names_;
-    Value::Object parameters_, walls_;
-    std::set<std::string> taken_;
     std::vector<PointFormulas> points_;
-    std::string lagrangian_, dissipation_;
-    Texts constraints_, forces_;
 };
 
 }  // namespace

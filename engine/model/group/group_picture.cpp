@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -69,6 +70,40 @@ void drawPlate(int entry, const double* x, Drawing& drawing) {
     drawing.shapes.push_back(Disc{at(0, 0), 4});
 }
 
+/// The section of a rod, or a small body, at (g14, g24, g34): three arms along its axes and a ring across the
+/// third. Its trail is the rod.
+void drawSection(int entry, const double* x, Drawing& drawing) {
+    constexpr double size = 0.08;
+    const double* const g = x + entry;
+    const auto at = [&](double a, double b, double c) {
+        const auto row = [&](int i) {
+            return g[4 * i] * a + g[4 * i + 1] * b + g[4 * i + 2] * c + g[4 * i + 3];
+        };
+        return onStage(row(0), row(1), row(2));
+    };
+    drawing.tracer = at(0, 0, 0);
+    if (drawing.isTracerOnly) return;
+    drawSpaceAxes(0.6, drawing);
+    drawing.shapes.push_back(Disc{onStage(0, 0, 0), 5, ShapeRole::scenery});
+    Curve ring{{}, 2, 1, ShapeRole::body};
+    for (int k = 0; k <= 36; ++k)
+        ring.points.push_back(
+            at(size * std::cos(k * std::numbers::pi / 18), size * std::sin(k * std::numbers::pi / 18), 0));
+    drawing.shapes.push_back(std::move(ring));
+    for (const auto& [a, b, c] : {std::array{size, 0.0, 0.0}, {0.0, size, 0.0}, {0.0, 0.0, 2 * size}})
+        drawing.shapes.push_back(Segment{at(0, 0, 0), at(a, b, c), 1.5});
+    drawing.shapes.push_back(Disc{drawing.tracer, 4});
+}
+
+/// Whether a group is a single factor in the basis of a named one.
+bool isOnly(const std::vector<Factor>& factors, const char* name) {
+    const std::vector<MatrixGroup::Square> basis = basisOf(name);
+    return factors.size() == 1 && factors[0].basis.size() == basis.size() &&
+           factors[0].n == basis[0].rows() &&
+           std::equal(basis.begin(), basis.end(), factors[0].basis.begin(),
+                      [](const auto& a, const auto& b) { return a == b; });
+}
+
 }  // namespace
 
 void describePicture(System& system, const GroupMechanics& on) {
@@ -90,11 +125,14 @@ void describePicture(System& system, const GroupMechanics& on) {
         system.draw = [bodies](const double* x, Drawing& drawing) { drawBodies(bodies, x, drawing); };
         return;
     }
-    const std::vector<MatrixGroup::Square> plane = basisOf("se2");
-    if (factors.size() != 1 || factors[0].basis.size() != plane.size() || factors[0].n != 3 ||
-        !std::equal(plane.begin(), plane.end(), factors[0].basis.begin(),
-                    [](const auto& a, const auto& b) { return a == b; }))
+    if (isOnly(factors, "se3")) {
+        system.isSpatial = true;
+        system.draw = [entry = factors[0].entry](const double* x, Drawing& drawing) {
+            drawSection(entry, x, drawing);
+        };
         return;
+    }
+    if (!isOnly(factors, "se2")) return;
     system.draw = [entry = factors[0].entry](const double* x, Drawing& drawing) {
         drawPlate(entry, x, drawing);
     };

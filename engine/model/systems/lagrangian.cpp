@@ -20,7 +20,7 @@ namespace {
 System makeLagrangian(const Settings& given) {
     const Settings settings = typed::writtenOut(given);
     typed::Formula formula = typed::formulaOf(settings);
-    formula.isExpanded = typed::hasIndices(given);
+    formula.isExpanded = formula.isExpanded || typed::hasIndices(given);
     typed::TypedMechanics made = typed::mechanicsOf(formula);
     System s;
     s.id = "lagrangian";

@@ -9,11 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/problem.hpp"
 #include "engine/model/cartesian/element_kinds.hpp"
+#include "engine/model/cartesian/elements_model.hpp"
 #include "engine/model/cartesian/elements_picture.hpp"
 #include "engine/model/cartesian/written_lagrangian.hpp"
-#include "engine/model/parts/drawn_rods.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal::systems {
@@ -66,24 +65,14 @@ System makeMechanism(const Settings& settings) {
     cartesian::Elements elements = cartesian::elementsOf(settings);
     WrittenForm form = cartesian::writtenLagrangian(elements);
     form.withStart = withStart;
-    System s;
-    try {
-        s = findModel("lagrangian")->make(form.settings);
-    } catch (const InvalidScene& e) {
-        std::vector<Problem> problems = e.problems();
-        for (Problem& p : problems) p.pointer = form.originOf(p.pointer);
-        throw InvalidScene(std::move(problems));
-    }
+    System s = cartesian::systemOf(form);
     s.id = "mechanism";
-    s.timeUnit = "s";
-    s.energyUnit = "J";
     for (Coordinate& c : s.coordinates) c = described(std::move(c));
-    DrawnRods rods;
-    for (const cartesian::RodElement& rod : elements.rods) rods.all.push_back({0, rod.name});
+    std::vector<std::string> rods;
+    for (const cartesian::RodElement& rod : elements.rods) rods.push_back(rod.name);
     cartesian::MechanismPicture picture = cartesian::pictureOf(std::move(elements));
-    for (std::size_t k = 0; k < rods.all.size(); ++k) rods.all[k].shape = picture.firstRod + k;
     s.draw = std::move(picture.draw);
-    s.parts.set(std::move(rods));
+    s.parts.set(cartesian::drawnRods(rods, picture.firstRod));
     s.isSpatial = false;
     s.hasPlanarTrajectory = true;
     s.trajectoryX = "q." + s.coordinates[0].name;
@@ -92,34 +81,14 @@ System makeMechanism(const Settings& settings) {
     return s;
 }
 
-FieldInfo elementsField(const cartesian::ElementKind& kind) {
-    FieldInfo field = optionalJsonField(kind.key, kind.key, kind.description + " By name, with the keys ");
-    for (const FieldInfo& info : kind.fields) {
-        const bool isFirst = &info == &kind.fields.front(), isLast = &info == &kind.fields.back();
-        field.description += (isFirst ? "" : isLast ? " and " : ", ") + info.key;
-        if (!info.unit.empty()) field.description += " (" + info.unit + ")";
-    }
-    field.description += ".";
-    field.symbol.clear();
-    return field;
-}
-
 std::vector<FieldInfo> mechanismFields() {
-    std::vector<FieldInfo> fields{
-        constantsField("parameters", "Constants by name; numbers of elements may be formulas in them."),
-        numberField("gravity", "gravity", "m/s²", 9.81, "Acceleration of gravity, downwards.")};
-    for (const cartesian::ElementKind& kind : cartesian::elementKinds())
-        fields.push_back(elementsField(kind));
-    for (FieldInfo& field : fields) {
-        if (field.key == "points")
-            field.example =
-                Value(Value::Object{{"O", Value::Object{{"at", Value::Array{0, 0}}, {"fixed", true}}},
-                                    {"A", Value::Object{{"mass", 1}, {"at", Value::Array{0.6, -0.8}}}}});
-        if (field.key == "springs")
-            field.example = Value(Value::Object{
-                {"spring", Value::Object{{"from", "O"}, {"to", "A"}, {"stiffness", 20}, {"length", 0.8}}}});
-    }
-    return fields;
+    return cartesian::elementsFields(
+        cartesian::elementKinds(),
+        {{"points", Value(Value::Object{{"O", Value::Object{{"at", Value::Array{0, 0}}, {"fixed", true}}},
+                                        {"A", Value::Object{{"mass", 1}, {"at", Value::Array{0.6, -0.8}}}}})},
+         {"springs",
+          Value(Value::Object{
+              {"spring", Value::Object{{"from", "O"}, {"to", "A"}, {"stiffness", 20}, {"length", 0.8}}}})}});
 }
 
 }  // namespace

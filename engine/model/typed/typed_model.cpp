@@ -103,6 +103,11 @@ Formula formulaOf(const Settings& given) {
         formula.text = settings.text("lagrangian");
     }
     if (!problems.empty()) throw InvalidScene(std::move(problems));
+    // Of many terms, each of which is one that may be typed, the sum may be long.
+    const bool isEachShort = std::all_of(formula.terms.begin(), formula.terms.end(), [](const auto& term) {
+        return term.second.size() <= maxExpressionLength;
+    });
+    formula.isExpanded = formula.isExpanded || (formula.terms.size() > 1 && isEachShort);
     formula.controls = controlsOf(settings, formula);
     checkPartNames(settings, formula);
     return formula;

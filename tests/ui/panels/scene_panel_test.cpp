@@ -187,6 +187,15 @@ private slots:
         QVERIFY(line("rocker: length")->property("invalid").toBool());
         QCOMPARE(value("/model/rods/rocker/length")->asNumber(), 1.8);
 
+        // In space places have three numbers, and joints a type.
+        QVERIFY(window.open("preset:door"));
+        QTRY_VERIFY(line("door: inertia 2"));
+        enter(line("door: inertia 2"), "8.25");
+        QCOMPARE(value("/model/bodies/door/inertia/1")->asNumber(), 8.25);
+        enter(line("door: at z"), "1.25");
+        QCOMPARE(value("/model/bodies/door/at/2")->asNumber(), 1.25);
+        QVERIFY(row("hinge: type")->findChild<QComboBox*>() || qobject_cast<QComboBox*>(row("hinge: type")));
+
         QVERIFY(window.open("preset:latch"));
         QTRY_VERIFY(line("value 1"));
         enter(line("value 1"), "5");
