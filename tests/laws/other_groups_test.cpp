@@ -134,7 +134,7 @@ Slopes slopesOf(const System& system, const State& start, const List& reference,
         }
         const double now[2] = {distance(end->x, reference, 0, entries),
                                distance(end->x, reference, entries, reference.size())};
-        if (std::min(now[0], now[1]) < 1e-11) break;
+        if (std::min(now[0], now[1]) < 1e-12) break;
         if (before[0] > 0) {
             found.places = std::log2(before[0] / now[0]);
             found.momenta = std::log2(before[1] / now[1]);
