@@ -162,6 +162,10 @@ void addStudy(CLI::App& app, Arguments& arguments) {
         ->type_name("POINTER=A,B,C or POINTER=FROM:TO:N[:log]");
     verb.add_option("--of", study.of, "the errors over these: the worst (default) or the median")
         ->type_name("worst|median");
+    verb.add_option("--knobs", study.knobs,
+                    "for cheapest and needs: what is searched besides the step, all by default: degree (and "
+                    "nodes), cells (elements of fields)")
+        ->type_name("step,degree,cells");
     verb.add_option("--search-time", study.searchTime,
                     "for cheapest and needs: CPU time of the search, 1s and 4s by default; for limits "
                     "of each scheme, 2s")

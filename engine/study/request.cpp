@@ -68,7 +68,7 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
         if (option == "--candidates") isOwn = isOwn || entry.over == Over::wishes;
         if (option == "--search-time")
             isOwn = isOwn || entry.over == Over::wishes || entry.over == Over::usableSteps;
-        if (option == "--over" || option == "--of") isOwn = isOwn || entry.over == Over::wishes;
+        if (option == "--over" || option == "--of" || option == "--knobs") isOwn = isOwn || entry.over == Over::wishes;
         if (option == "--x" || option == "--y") isOwn = isOwn || isChanged;
         if (isGiven && !isOwn)
             throw InvalidScene(std::string(option), "is not an option of " + entry.item.id,
@@ -79,6 +79,7 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
     refuse(!study.budget.empty(), Over::wantedError, "--budget", "cheapest");
     refuse(!study.candidates.empty(), Over::wantedError, "--candidates", "cheapest");
     refuse(!study.searchTime.empty(), Over::wantedError, "--search-time", "cheapest");
+    refuse(!study.knobs.empty(), Over::wantedError, "--knobs", "cheapest");
     refuse(!study.over.empty(), Over::wantedError, "--over", "cheapest");
     refuse(!study.of.empty(), Over::wantedError, "--of", "cheapest");
     refuse(!study.x.empty(), Over::numbers, "--x", "stability");
@@ -145,6 +146,7 @@ Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadd
     }
     options.hasAllCandidates = study.candidates == "all" || (isLadder && study.candidates.empty());
     if (!study.searchTime.empty()) options.searchSeconds = parseSeconds(study.searchTime, "--search-time");
+    options.knobs = parseKnobs(study.knobs);
     options.over = parseCases(study.over, study.of);
     options.isAtEnd = study.isFinal;
     options.ladder = {study.steps, study.from, study.to, study.points};

@@ -19,6 +19,7 @@ struct StudyRequest {
     std::string candidates;           ///< "scene" or "all"; empty: "scene", of needs "all"
     std::string budget;               ///< "1ms", "1ms/s"; empty: none
     std::string over, of;             ///< "POINTER=a,b,c"; "worst" or "median". Empty: the scene alone
+    std::string knobs;                ///< "step,degree,cells"; empty: all
     std::string searchTime;           ///< "0.5", "500ms", "1s"; empty: the usual one
     int points = 0, repeat = 5;
     std::vector<std::string> only;

@@ -222,9 +222,10 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
     const std::vector<Metric> sizedMetrics = metrics;
     CandidateSearch search(
         scene_, searched, std::move(metrics),
-        [&](const StudyPoint& point) { return reference.of(scene_.schemes[point.scheme]); }, reference_,
+        [&](const StudyPoint& point) { return reference.of(scene_, point); }, reference_,
         isCounted, seconds, stop);
     search.judgeOver(cases_, options_.over.isMedian);
+    search.setKnobs(options_.knobs);
     if (isLadder) return climb(search, wanted, onPoint, stop);
     std::vector<double> values;
     for (const Wish& wish : wishes()) values.push_back(wish.value);

@@ -19,6 +19,7 @@
 #include "engine/scene/resolve.hpp"
 #include "engine/study/progress.hpp"
 #include "engine/study/search/candidates.hpp"
+#include "engine/study/search/knobs.hpp"
 #include "engine/study/search/ladder.hpp"
 #include "engine/study/search/metric.hpp"
 #include "engine/study/search/point.hpp"
@@ -47,6 +48,7 @@ struct SweepOptions {
     double budget = 0;
     bool isPerTime = false;
     OverCases over = {};       ///< of a search: what has to be served besides the scene itself
+    SearchKnobs knobs = {};    ///< of a search
     double searchSeconds = 0;  ///< of CPU; 0: 1 s where runs are timed, else no limit
     /// Of a ladder of wishes, from the largest down: one point for each, the cheapest of all schemes.
     std::vector<double> rungs = {};

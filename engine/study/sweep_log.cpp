@@ -36,14 +36,15 @@ std::string pointLine(std::size_t index, const PointResult& r) {
          {r.steps, r.cost.iterations, r.cost.evaluations, r.cost.linearSolves, r.cost.rejected})
         line += ',' + std::to_string(value);
     line += cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
-    line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes);
+    line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes) +
+            ',' + std::to_string(r.reduction.cells);
     line += cellsText({r.unreducedWork, r.timesCheapest, r.excess, r.floor, r.confirmedAt});
     return line + ',' + r.floorOf + ',' + withoutCommas(r.reason) + ',' + errorsText(r.errors) + ',' +
            std::to_string(r.scheme);
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
-    if (cells.size() != 27) return {};
+    if (cells.size() != 28) return {};
     PointResult r;
     r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
     r.cause = outcomeOf(cells[3]);
@@ -56,16 +57,17 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.predictedSeconds = cellNumber(cells[13]);
     r.step = cellNumber(cells[14]);
     r.tolerance = cellNumber(cells[15]);
-    r.reduction = {static_cast<int>(count(cells[16])), static_cast<int>(count(cells[17]))};
-    r.unreducedWork = cellNumber(cells[18]);
-    r.timesCheapest = cellNumber(cells[19]);
-    r.excess = cellNumber(cells[20]);
-    r.floor = cellNumber(cells[21]);
-    r.confirmedAt = cellNumber(cells[22]);
-    r.floorOf = cells[23];
-    r.reason = withCommas(cells[24]);
-    r.errors = errorsOf(cells[25]);
-    r.scheme = cellIndex(cells[26]);
+    r.reduction = {static_cast<int>(count(cells[16])), static_cast<int>(count(cells[17])),
+                   static_cast<int>(count(cells[18]))};
+    r.unreducedWork = cellNumber(cells[19]);
+    r.timesCheapest = cellNumber(cells[20]);
+    r.excess = cellNumber(cells[21]);
+    r.floor = cellNumber(cells[22]);
+    r.confirmedAt = cellNumber(cells[23]);
+    r.floorOf = cells[24];
+    r.reason = withCommas(cells[25]);
+    r.errors = errorsOf(cells[26]);
+    r.scheme = cellIndex(cells[27]);
     return r;
 }
 
@@ -94,6 +96,7 @@ Value optionsValue(const SweepOptions& options) {
     value.set("per time", options.isPerTime);
     value.set("rungs", arrayOf(options.rungs));
     value.set("over", textOf(options.over));
+    value.set("knobs", textOf(options.knobs));
     value.set("of", options.over.isMedian ? "median" : "");
     return value;
 }
@@ -115,6 +118,7 @@ SweepOptions optionsOf(const Value& value) {
     options.budget = value.find("budget")->asNumber();
     options.isPerTime = value.find("per time")->asBool();
     options.rungs = numbersOf(*value.find("rungs"));
+    options.knobs = parseKnobs(value.find("knobs")->asString());
     options.over = parseCases(value.find("over")->asString(), value.find("of")->asString());
     return options;
 }

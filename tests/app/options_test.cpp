@@ -181,6 +181,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
         {"--wish", words("--wish energy=1e-5")},
         {"--candidates", words("--candidates all")},
         {"--search-time", words("--search-time soon")},
+        {"--knobs", words("--knobs colour")},
         {"--over", words("--over /model/l=1,1.5")},
         {"--of", words("--of mean")},
         {"--steps", words("--steps 0.2,0.1")},

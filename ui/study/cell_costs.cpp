@@ -40,12 +40,6 @@ ResolvedScheme schemeOfCell(const Discretization& cell, const std::string& label
     return acceptedBy(scene, spec);
 }
 
-/// Of the cell as it is: a search may have found a smaller degree to be enough.
-double secondsAsItIs(const PointResult& result) {
-    if (!result.reduction) return result.cpuSeconds;
-    return result.cpuSeconds * result.unreducedWork / workOf(result, result.reduction.nodes);
-}
-
 }  // namespace
 
 std::vector<std::optional<MeasuredCell>> costsOfCells(const ResolvedScene& scene,
@@ -68,11 +62,12 @@ std::vector<std::optional<MeasuredCell>> costsOfCells(const ResolvedScene& scene
     options.wantedError = error;
     options.searchSeconds = seconds;
     options.repeat = 1;
+    options.knobs = {false, false};  // the cell as it is
     Sweep sweep(std::move(all), options);
     sweep.run({}, {}, stop);
     for (const SweepRow& row : sweep.rows()) {
         if (row.result.status == RunStatus::waiting) continue;
-        const double cost = row.result.isDone() ? secondsAsItIs(row.result) : 0;
+        const double cost = row.result.isDone() ? row.result.cpuSeconds : 0;
         costs[cellOf[row.point.scheme]] = {cost, QString::fromStdString(row.result.reason)};
     }
     return costs;

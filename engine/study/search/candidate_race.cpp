@@ -32,7 +32,7 @@ std::optional<std::size_t> CandidateRace::bestOf(std::size_t entry) const {
 }
 
 double CandidateRace::bestCost() const {
-    double least = HUGE_VAL;
+    double least = knownCost_;
     for (std::size_t e = 0; e < entries_.size(); ++e)
         if (const auto best = bestOf(e)) least = std::min(least, states_[e].runs[*best].cost);
     return least;
@@ -107,6 +107,7 @@ std::optional<CandidateRace::Plan> CandidateRace::planOf(std::size_t entry) {
     }
     if (own.isSingle && s.made > 0) return drop(entry, best ? RaceEnd::reached : RaceEnd::atFloor);
     if (s.made >= mostRuns) return drop(entry, best ? RaceEnd::reached : RaceEnd::exhausted);
+    if (own.hasOtherKnob) return drop(entry, RaceEnd::cutOff);
     if (s.runs.empty()) {
         if (own.firstCost > limit) return drop(entry, RaceEnd::cutOff);
         return Plan{own.firstN, own.firstCost};

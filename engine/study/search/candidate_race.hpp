@@ -30,11 +30,12 @@
 namespace extremal {
 
 struct RaceEntry {
-    double order = 1;         ///< claimed: the error falls like n^-order; 1 of tolerances
-    bool isAdaptive = false;  ///< n is 1/tolerance
-    bool isSingle = false;    ///< there is one run alone
-    double firstN = 6;        ///< where to begin
-    double firstCost = 0;     ///< of that run, as far as it is known
+    double order = 1;           ///< claimed: the error falls like n^-order; 1 of tolerances
+    bool isAdaptive = false;    ///< n is 1/tolerance
+    bool isSingle = false;      ///< there is one run alone
+    bool hasOtherKnob = false;  ///< searched elsewhere, with another knob as well
+    double firstN = 6;          ///< where to begin
+    double firstCost = 0;       ///< of that run, as far as it is known
     /// Costs of whole runs, by n, as a few steps tell them: for what no run has told yet.
     std::vector<std::pair<double, double>> trials = {};
     double mostN = 1e7;
@@ -75,6 +76,8 @@ class CandidateRace {
 public:
     explicit CandidateRace(std::vector<RaceEntry> entries);
 
+    /// What somebody else reaches the wish for: no run may cost more.
+    void setKnownCost(double cost) { knownCost_ = cost; }
     /// The next run; none at the end of the race.
     std::optional<RaceJob> next();
     void take(const RaceJob& job, const RaceRun& run);
@@ -116,6 +119,7 @@ private:
     std::optional<Plan> drop(std::size_t entry, RaceEnd end, double n = 0);
     double rounded(std::size_t entry, double n) const;
 
+    double knownCost_ = std::numeric_limits<double>::infinity();
     std::vector<RaceEntry> entries_;
     std::vector<State> states_;
 };

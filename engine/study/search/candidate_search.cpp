@@ -14,15 +14,10 @@
 #include "engine/study/search/ladder.hpp"
 
 namespace extremal {
-namespace {
 
-/// A scheme of the scene is given up where it would cost so many times the cheapest.
-constexpr double mostTimesTheLeast = 100;
-
-/// "3.2 times dearer".
-std::string dearer(double times) { return formatNumber(times, times < 10 ? 2 : 3) + " times dearer"; }
-
-}  // namespace
+std::string CandidateSearch::timesDearer(double times) {
+    return formatNumber(times, times < 10 ? 2 : 3) + " times dearer";
+}
 
 CandidateSearch::CandidateSearch(const ResolvedScene& scene, std::vector<SearchedScheme> schemes,
                                  std::vector<Metric> metrics, References references, ReferenceInfo reference,
@@ -111,16 +106,17 @@ RaceEntry CandidateSearch::entryFor(const StudyPoint& own, const ResolvedScheme&
     entry.isAdaptive = scheme.isAdaptive();
     entry.order = entry.isAdaptive ? 1 : scheme.claims.order > 0 ? scheme.claims.order : 2;
     entry.isSingle = hasStepOfItsSpace(scene_, scheme);
+    entry.hasOtherKnob = knobs_.isCells && !entry.isSingle && cellsOf(scheme, scene_) > 0;
     if (entry.isSingle)
         entry.firstN = std::max(1.0, std::round(length_ / own.step));
-    else
+    else if (!entry.hasOtherKnob)
         findStart(own, scheme, entry);
     return entry;
 }
 
 RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& scheme, const RaceJob& job,
                                std::span<const double> wishes) {
-    const Key key{own.scheme, own.reduction.degree, own.reduction.nodes, job.n};
+    const Key key = keyOf(own, job.n);
     auto known = known_.find(key);
     if (known == known_.end() || (known->second.result.isCutOff && known->second.cost < job.limit)) {
         // Before anyone has reached the wish, a run that goes wrong must not take all the time there is.
@@ -131,8 +127,7 @@ RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& sche
         limit.seconds = std::min(limit.seconds, std::max(seconds_ - spent_, fewSeconds));
         Known made;
         made.result = runCases(own, pointAt(own, scheme, job.n), 0, limit, wishes);
-        const int nodes = richnessOf(schemeAt(scene_, own.scheme, made.result)).nodes;
-        made.cost = isCounted_ ? workOf(made.result, nodes) : made.result.cpuSeconds;
+        made.cost = costOf(own, made.result);
         ++runs_;
         known = known_.insert_or_assign(key, std::move(made)).first;
     }
@@ -158,7 +153,7 @@ PointResult CandidateSearch::runCases(const StudyPoint& own, const StudyPoint& a
         const SearchCase& each = cases_[i];
         const ResolvedScheme& scheme = each.scene->schemes[own.scheme];
         results.push_back(
-            runPoint(*each.scene, at, each.metrics, each.reference.of(scheme), repeat, left, stop_));
+            runPoint(*each.scene, at, each.metrics, each.reference.of(*each.scene, at), repeat, left, stop_));
         left.seconds -= results.back().cpuSeconds;
         left.work -= workOf(results.back(), richnessOf(scheme).nodes);
         if (isMedian_ || repeat > 0 || !(excessOf(results.back(), wishes) > 0)) continue;
@@ -169,8 +164,10 @@ PointResult CandidateSearch::runCases(const StudyPoint& own, const StudyPoint& a
     return combined(results, isMedian_);
 }
 
-void CandidateSearch::drive(CandidateRace& race, const std::function<RaceRun(const RaceJob&)>& run) {
-    while (!stop_.stop_requested() && !isTimeUp()) {
+/// Until so much has been spent.
+void CandidateSearch::drive(CandidateRace& race, double seconds,
+                            const std::function<RaceRun(const RaceJob&)>& run) {
+    while (!stop_.stop_requested() && spent_ < seconds) {
         const double begin = threadSeconds();
         const std::optional<RaceJob> job = race.next();
         if (!job) return;
@@ -180,7 +177,7 @@ void CandidateSearch::drive(CandidateRace& race, const std::function<RaceRun(con
 }
 
 const PointResult& CandidateSearch::knownAt(const StudyPoint& point, double n) const {
-    return known_.at({point.scheme, point.reduction.degree, point.reduction.nodes, n}).result;
+    return known_.at(keyOf(point, n)).result;
 }
 
 /// The fewest evaluations among smaller degrees and numbers of nodes, with the steps with which they could be
@@ -194,12 +191,12 @@ void CandidateSearch::reduce(std::size_t index, std::span<const double> wishes, 
     std::vector<RaceEntry> entries(1);
     // Not every scheme takes as many steps as the run was asked for.
     const auto found = std::find_if(known_.begin(), known_.end(), [&](const auto& known) {
-        const auto& [scheme, degree, nodes, asked] = known.first;
-        return scheme == points[0].scheme && degree == 0 && nodes == 0 &&
+        const auto& [scheme, degree, nodes, cells, asked] = known.first;
+        return scheme == points[0].scheme && degree == 0 && nodes == 0 && cells == 0 &&
                known.second.result.step == result.step && known.second.result.tolerance == result.tolerance;
     });
     if (found == known_.end()) return;
-    const double n = std::get<3>(found->first), cost = found->second.cost;
+    const double n = std::get<4>(found->first), cost = found->second.cost;
     entries[0].isSingle = true;
     entries[0].firstN = n;
     for (const Reduction& reduction : reductionsOf(whole, scene_)) {
@@ -216,7 +213,7 @@ void CandidateSearch::reduce(std::size_t index, std::span<const double> wishes, 
         entries.push_back(entry);
     }
     CandidateRace race(entries);
-    drive(race,
+    drive(race, seconds_,
           [&](const RaceJob& job) { return runOf(points[job.entry], variants[job.entry], job, wishes); });
     const auto winner = race.winner();
     if (!winner || *winner == 0) return;
@@ -265,7 +262,7 @@ std::string CandidateSearch::reasonOf(const CandidateRace& race, std::size_t ind
                 schemeOf(index).isAdaptive()
                     ? "would need a tolerance of about " + formatNumber(1 / race.predictedN(index), 2)
                     : "would need about " + formatNumber(race.predictedN(index), 2) + " steps";
-            return needs + (times > 0 ? ", " + dearer(times) : "");
+            return needs + (times > 0 ? ", " + timesDearer(times) : "");
         }
         case RaceEnd::cutOff:
             return "first run dearer than the answer";
@@ -294,11 +291,10 @@ std::string CandidateSearch::reasonOf(const CandidateRace& race, std::size_t ind
     return isTimeUp() ? "the search ended after " + formatNumber(seconds_, 2) + " s" : "not searched";
 }
 
-PointResult CandidateSearch::resultOf(const CandidateRace& race, std::size_t index) const {
+/// `least`: the cost of the cheapest of all.
+PointResult CandidateSearch::resultOf(const CandidateRace& race, std::size_t index, double least) const {
     const StudyPoint& point = schemes_[index].point;
     const std::vector<RaceRun>& runs = race.runsOf(index);
-    double least = HUGE_VAL;
-    if (const auto winner = race.winner()) least = race.runsOf(*winner)[*race.bestOf(*winner)].cost;
     if (const auto best = race.bestOf(index)) {
         const RaceRun& run = runs[*best];
         PointResult result = knownAt(point, run.n);
@@ -306,7 +302,7 @@ PointResult CandidateSearch::resultOf(const CandidateRace& race, std::size_t ind
         const double confirmed = race.confirmedAt(index);
         if (confirmed > 0)
             result.confirmedAt = schemeOf(index).isAdaptive() ? 1 / confirmed : length_ / confirmed;
-        result.reason = run.cost > least ? "reached, " + dearer(run.cost / least) : "the cheapest";
+        result.reason = run.cost > least ? "reached, " + timesDearer(run.cost / least) : "the cheapest";
         return result;
     }
     // The nearest run to its end; else any that says how it failed.
@@ -360,7 +356,7 @@ std::vector<std::size_t> CandidateSearch::orderOfTrials() const {
     std::iota(order.begin(), order.end(), std::size_t(0));
     const auto rank = [&](std::size_t i) {
         const ResolvedScheme& scheme = schemeOf(i);
-        if (schemes_[i].isOfScene) return -1;
+        if (schemes_[i].isOfScene || (knobs_.isCells && cellsOf(scheme, scene_) > 0)) return -1;
         return scheme.family ? 1 + std::max(scheme.claims.order, 0) : 0;
     };
     std::stable_sort(order.begin(), order.end(),
@@ -385,10 +381,16 @@ CandidateRace CandidateSearch::raceFor(std::span<const double> wishes) {
         entries.back().mostTimes = schemes_[i].isOfScene ? mostTimesTheLeast : 1;
     }
     CandidateRace race(entries);
+    // What these find limits the race of those whose mesh is that of the scene.
+    constexpr double partOfMeshes = 0.7;
+    searchMeshes(race, wishes,
+                 std::isfinite(seconds_) ? spent_ + partOfMeshes * (seconds_ - spent_) : seconds_);
+    race.setKnownCost(leastCost(race, wishes));
     if (!stop_.stop_requested())
-        drive(race, [&](const RaceJob& job) {
+        drive(race, seconds_, [&](const RaceJob& job) {
             return runOf(schemes_[job.entry].point, schemeOf(job.entry), job, wishes);
         });
+    searchMeshes(race, wishes, seconds_);
     return race;
 }
 
@@ -396,9 +398,9 @@ std::vector<PointResult> CandidateSearch::find(std::span<const double> wishes, i
     std::vector<PointResult> results(schemes_.size());
     const CandidateRace race = raceFor(wishes);
     if (stop_.stop_requested()) return results;
-    for (std::size_t i = 0; i < schemes_.size(); ++i) results[i] = resultOf(race, i);
+    for (std::size_t i = 0; i < schemes_.size(); ++i) results[i] = fullResultOf(race, i, wishes);
     for (std::size_t i = 0; i < schemes_.size(); ++i)
-        if (schemes_[i].isOfScene && results[i].isDone() && !entries_[i]->isSingle &&
+        if (knobs_.isDegree && schemes_[i].isOfScene && results[i].isDone() && !entries_[i]->isSingle &&
             !entries_[i]->isAdaptive)
             reduce(i, wishes, results[i]);
     time(results, repeat);
@@ -408,17 +410,16 @@ std::vector<PointResult> CandidateSearch::find(std::span<const double> wishes, i
 std::pair<std::size_t, PointResult> CandidateSearch::cheapest(std::span<const double> wishes, int repeat) {
     const CandidateRace race = raceFor(wishes);
     if (stop_.stop_requested()) return {};
-    if (const auto winner = race.winner()) {
-        PointResult result = resultOf(race, *winner);
-        timeOne(*winner, result, repeat);
-        return {*winner, result};
-    }
-    std::pair<std::size_t, PointResult> nearest{0, resultOf(race, 0)};
+    std::pair<std::size_t, PointResult> best{0, fullResultOf(race, 0, wishes)};
+    const auto isBetter = [](const PointResult& a, const PointResult& b) {
+        if (a.isDone() != b.isDone()) return a.isDone();
+        if (a.isDone()) return a.reason == "the cheapest";
+        return a.excess < b.excess || std::isnan(b.excess);
+    };
     for (std::size_t i = 1; i < schemes_.size(); ++i)
-        if (PointResult r = resultOf(race, i);
-            r.excess < nearest.second.excess || std::isnan(nearest.second.excess))
-            nearest = {i, std::move(r)};
-    return nearest;
+        if (PointResult r = fullResultOf(race, i, wishes); isBetter(r, best.second)) best = {i, std::move(r)};
+    if (best.second.isDone()) timeOne(best.first, best.second, repeat);
+    return best;
 }
 
 }  // namespace extremal

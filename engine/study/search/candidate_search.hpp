@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The cheapest of some schemes for a wish, by a race (candidate_race.hpp), and of each scheme of the scene
-/// the smallest degree and the fewest nodes that are enough.
+/// the smallest degree and the fewest nodes that are enough. Of schemes of fields the number of elements and
+/// the steps are searched together (mesh_fit.hpp), before the race of the others.
 ///
 /// Costs are CPU seconds, or, where runs are not timed, evaluations (steps times nodes where none are
-/// counted), which are the same on every machine: so is then everything that is found. Runs are remembered: a
-/// second wish begins with those of the first.
+/// counted; of meshes finer than that of the scene as many times more as they have unknowns), which are the
+/// same on every machine: so is then everything that is found. Runs are remembered: a second wish begins with
+/// those of the first.
 #pragma once
 
 #include <functional>
@@ -12,12 +14,15 @@
 #include <map>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "engine/run/comparison.hpp"
 #include "engine/study/search/candidate_race.hpp"
+#include "engine/study/search/knobs.hpp"
+#include "engine/study/search/mesh_fit.hpp"
 #include "engine/study/search/point.hpp"
 #include "engine/study/search/search_cases.hpp"
 
@@ -48,6 +53,8 @@ public:
         isMedian_ = isMedian;
     }
 
+    void setKnobs(SearchKnobs knobs) { knobs_ = knobs; }
+
     /// One result per scheme: what reaches the wishes, one per metric, at the lowest cost, with status done;
     /// else the nearest, with status failed and the reason. Those that reach it are timed `repeat` times,
     /// of schemes that are not of the scene the best three.
@@ -56,6 +63,11 @@ public:
     /// The cheapest alone, timed `repeat` times, and its index among the schemes; where no scheme
     /// reaches the wishes the nearest, with status failed.
     std::pair<std::size_t, PointResult> cheapest(std::span<const double> wishes, int repeat);
+
+    /// A scheme of the scene is given up where it would cost so many times the cheapest.
+    static constexpr double mostTimesTheLeast = 100;
+    /// "3.2 times dearer".
+    static std::string timesDearer(double times);
 
     int runs() const { return runs_; }
     double secondsSpent() const { return spent_; }
@@ -66,7 +78,10 @@ private:
         PointResult result;
         double cost = 0;
     };
-    using Key = std::tuple<std::size_t, int, int, double>;  ///< scheme, degree, nodes, n
+    using Key = std::tuple<std::size_t, int, int, int, double>;  ///< scheme, degree, nodes, cells, n
+    static Key keyOf(const StudyPoint& point, double n) {
+        return {point.scheme, point.reduction.degree, point.reduction.nodes, point.reduction.cells, n};
+    }
 
     const ResolvedScheme& schemeOf(std::size_t index) const {
         return scene_.schemes[schemes_[index].point.scheme];
@@ -80,9 +95,24 @@ private:
                   std::span<const double> wishes);
     PointResult runCases(const StudyPoint& own, const StudyPoint& at, int repeat, const CostLimit& limit,
                          std::span<const double> wishes);
-    void drive(CandidateRace& race, const std::function<RaceRun(const RaceJob&)>& run);
+    void drive(CandidateRace& race, double seconds, const std::function<RaceRun(const RaceJob&)>& run);
+    double costOf(const StudyPoint& own, const PointResult& result) const;
+    bool hasMesh(std::size_t index) const;
+    double wantedOf(std::span<const double> wishes) const { return wishes.size() == 1 ? wishes[0] : 1; }
+    void searchMeshes(const CandidateRace& race, std::span<const double> wishes, double seconds);
+    void beginMeshes();
+    MeshRun meshRunOf(std::size_t index, const MeshPair& pair, double limit, std::span<const double> wishes);
+    bool isConfirmed(std::size_t index, const MeshRun& best, std::span<const double> wishes);
+    double leastCost(const CandidateRace& race, std::span<const double> wishes) const;
+    std::string floorOfMesh(std::size_t index, std::span<const double> wishes) const;
+    void explainMesh(std::size_t index, double least, std::span<const double> wishes,
+                     PointResult& result) const;
+    void takeMesh(std::size_t index, const CandidateRace& race, std::span<const double> wishes,
+                  PointResult& result) const;
+    PointResult fullResultOf(const CandidateRace& race, std::size_t index,
+                             std::span<const double> wishes) const;
     void reduce(std::size_t index, std::span<const double> wishes, PointResult& result);
-    PointResult resultOf(const CandidateRace& race, std::size_t index) const;
+    PointResult resultOf(const CandidateRace& race, std::size_t index, double least) const;
     const PointResult& knownAt(const StudyPoint& point, double n) const;
     std::string reasonOf(const CandidateRace& race, std::size_t index, const PointResult& nearest) const;
     bool isReduced(std::size_t index) const;
@@ -108,6 +138,9 @@ private:
     static constexpr double trialLengths[] = {6, 24, 96, 384, 1536};  ///< of the whole motion, steps
     int useless_[std::size(trialLengths)] = {};  ///< schemes in a row that have no solution there
     std::map<Key, Known> known_;
+    SearchKnobs knobs_;
+    std::map<std::size_t, MeshFit> meshes_;          ///< by scheme
+    std::map<std::size_t, double> confirmedMeshes_;  ///< steps that confirmed the best, of the last wish
 };
 
 }  // namespace extremal

@@ -2,6 +2,7 @@
 #include "engine/study/search/reductions.hpp"
 
 #include "engine/core/problem.hpp"
+#include "engine/family/parts/meshes.hpp"
 
 namespace extremal {
 namespace {
@@ -12,8 +13,10 @@ int wholeNumber(const Settings& settings, const char* key) {
 }
 
 void set(Settings& settings, const char* key, int value) {
+    bool isThere = false;
     for (auto& [name, present] : settings.keys)
-        if (name == key) present = static_cast<double>(value);
+        if (name == key) present = static_cast<double>(value), isThere = true;
+    if (!isThere) settings.keys.emplace_back(key, static_cast<double>(value));
     std::erase_if(settings.expressions, [&](const Value::Member& m) { return m.first == key; });
 }
 
@@ -26,6 +29,16 @@ Reduction richnessOf(const ResolvedScheme& scheme) {
     return has.degree > 0 && has.nodes > 0 ? has : Reduction{};
 }
 
+int cellsOf(const ResolvedScheme& scheme, const ResolvedScene& scene) {
+    // Functions of their own are made for the medium, and their error does not fall like a power.
+    const bool isPlain = scheme.family && scheme.family->parts.find<OwnMesh>() &&
+                         scheme.family->parts.find<RefinedMesh>() && scheme.orderInSpace() > 0;
+    const Value* const functions = isPlain ? scheme.discretization.space.find("functions") : nullptr;
+    if (!isPlain || (functions && *functions != Value("lagrange"))) return 0;
+    const int own = wholeNumber(scheme.discretization.space, "cells");
+    return own > 0 ? own : wholeNumber(scene.scene.model, "cells");
+}
+
 ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const ResolvedScene& scene) {
     if (!to) return scheme;
     SchemeSpec spec = scheme.spec;
@@ -33,8 +46,11 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
     spec.named.clear();
     spec.space = scheme.discretization.space;
     spec.quadrature = scheme.discretization.quadrature;
-    set(spec.space, "degree", to.degree);
-    set(spec.quadrature, "nodes", to.nodes);
+    if (to.degree > 0) {
+        set(spec.space, "degree", to.degree);
+        set(spec.quadrature, "nodes", to.nodes);
+    }
+    if (to.cells > 0) set(spec.space, "cells", to.cells);
     ResolvedScheme result = resolve(spec, scene.system.get());
     if (!result.properties.refusal.empty()) throw InvalidScene("/quadrature", result.properties.refusal);
     if (!result.properties.instability.empty()) throw InvalidScene("/space", result.properties.instability);

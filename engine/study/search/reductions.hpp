@@ -8,15 +8,18 @@
 
 namespace extremal {
 
-/// The degree of a space and the nodes of its rule; 0: not changed.
+/// The degree of a space, the nodes of its rule, and its elements; 0: not changed.
 struct Reduction {
-    int degree = 0, nodes = 0;
-    explicit operator bool() const { return degree > 0; }
+    int degree = 0, nodes = 0, cells = 0;
+    explicit operator bool() const { return degree > 0 || cells > 0; }
     bool operator==(const Reduction&) const = default;
 };
 
 /// The present ones of a scheme whose space has one degree for all and whose rule has nodes; else none.
 Reduction richnessOf(const ResolvedScheme& scheme);
+
+/// The elements of a scheme whose space may have any number of them; 0: it has none.
+int cellsOf(const ResolvedScheme& scheme, const ResolvedScene& scene);
 
 /// The scheme with another degree and number of nodes; itself where nothing is reduced. Throws
 /// InvalidScene where there is no such scheme.

@@ -45,6 +45,11 @@ ExactSolution SearchReference::of(const ResolvedScheme& scheme) const {
     return own.make ? own.make() : ExactSolution{};
 }
 
+ExactSolution SearchReference::of(const ResolvedScene& scene, const StudyPoint& point) const {
+    // Another degree is on the mesh of the scheme.
+    return point.reduction.cells > 0 ? of(schemeOf(scene, point)) : of(scene.schemes[point.scheme]);
+}
+
 Confirmation SearchReference::confirmed(const Metric& metric) const {
     const bool areErrors = std::all_of(metric.terms.begin(), metric.terms.end(), [](const MetricTerm& t) {
         return t.observable && t.observable->item.id == "error";

@@ -11,6 +11,7 @@
 #include "engine/run/reference/reference.hpp"
 #include "engine/run/reference/tabulated_solution.hpp"
 #include "engine/study/search/metric.hpp"
+#include "engine/study/search/point.hpp"
 
 namespace extremal {
 
@@ -25,6 +26,8 @@ public:
     const ReferenceInfo& info() const { return reference_.info; }
     /// For a run of a scheme of the scene; empty where there is none.
     ExactSolution of(const ResolvedScheme& scheme) const;
+    /// For a run of a point of a study.
+    ExactSolution of(const ResolvedScene& scene, const StudyPoint& point) const;
     /// Beside a method of another kind, in the metric; empty where there is no such method, or where the
     /// metric needs no reference.
     Confirmation confirmed(const Metric& metric) const;

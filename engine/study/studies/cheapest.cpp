@@ -50,7 +50,9 @@ std::string keptOf(const Sweep& sweep, const SweepRow& row) {
     std::string text;
     const Reduction has = richnessOf(sweep.scene().schemes[row.point.scheme]),
                     kept = r.reduction ? r.reduction : has;
-    if (kept) text = "degree " + std::to_string(kept.degree) + ", " + counted(kept.nodes, "node") + ", ";
+    if (kept.degree > 0)
+        text = "degree " + std::to_string(kept.degree) + ", " + counted(kept.nodes, "node") + ", ";
+    if (kept.cells > 0) text += counted(kept.cells, "cell") + ", ";
     return text + std::to_string(r.steps) + " steps" +
            (r.tolerance > 0 ? ", tolerance " + formatNumber(r.tolerance, 3) : "");
 }
@@ -64,7 +66,11 @@ std::string leftOutOf(const Sweep& sweep, const SweepRow& row) {
                (sweep.options().repeat == 0 ? "evaluations" : "time") + " of the cheapest";
     if (!row.result.isDone()) return "";
     std::vector<std::string> all;
-    if (const Reduction kept = row.result.reduction; kept) {
+    if (const Reduction kept = row.result.reduction; kept.cells > 0) {
+        const int has = cellsOf(sweep.scene().schemes[row.point.scheme], sweep.scene());
+        if (has > kept.cells)
+            all.push_back(std::to_string(has - kept.cells) + " of " + counted(has, "cell"));
+    } else if (kept) {
         const Reduction has = richnessOf(sweep.scene().schemes[row.point.scheme]);
         if (has.degree > kept.degree) all.push_back(counted(has.degree - kept.degree, "degree"));
         if (has.nodes > kept.nodes) all.push_back(counted(has.nodes - kept.nodes, "node"));

@@ -17,6 +17,7 @@ std::string textOfSteps(const Sweep& sweep, const SweepRow& row) {
     const PointResult& r = row.result;
     const Reduction has = richnessOf(schemeOf(sweep.scene(), row.point));
     std::string text = has ? "degree " + std::to_string(has.degree) + ", " : "";
+    if (r.reduction.cells > 0) text += std::to_string(r.reduction.cells) + " cells, ";
     return text + std::to_string(r.steps) + " steps" +
            (r.tolerance > 0 ? ", tolerance " + formatNumber(r.tolerance, 3) : "");
 }

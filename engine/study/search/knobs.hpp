@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a search may change besides the step or the tolerance of a scheme.
+///
+///     --knobs step,degree,cells      all of them by default; the step is always searched
+#pragma once
+
+#include <string>
+
+namespace extremal {
+
+struct SearchKnobs {
+    bool isDegree = true;  ///< degree and nodes, of schemes of the scene
+    bool isCells = true;   ///< elements in space, of schemes on meshes
+    bool operator==(const SearchKnobs&) const = default;
+};
+
+/// Empty: all. Throws InvalidScene ("--knobs").
+SearchKnobs parseKnobs(const std::string& text);
+std::string textOf(const SearchKnobs& knobs);
+
+}  // namespace extremal
