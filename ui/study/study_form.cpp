@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
 
@@ -50,6 +51,7 @@ StudyForm::StudyForm(QWidget* parent) : Card(tr("Study"), parent) {
     wishes_ = new WishesEdit;
     body()->addWidget(wishes_);
     connect(wishes_, &WishesEdit::changed, this, &StudyForm::wishesChanged);
+    addCases();
     auto* numbers = new QGridLayout;
     numbers->setHorizontalSpacing(6);
     numbers->setVerticalSpacing(4);
@@ -68,6 +70,29 @@ StudyForm::StudyForm(QWidget* parent) : Card(tr("Study"), parent) {
     connect(run_, &QPushButton::clicked, this, &StudyForm::runRequested);
     choose("work-precision");
     showOptions();
+}
+
+/// What a search has to serve, and who takes part in it.
+void StudyForm::addCases() {
+    areAll_ = new QCheckBox(tr("all schemes that accept the scene"));
+    areAll_->setObjectName("allCandidates");
+    areAll_->setToolTip(tr("Named schemes, baselines and reduced models besides those of the scene"));
+    overLabel_ = makeLabel(tr("for all of"), "caption");
+    over_ = new QLineEdit;
+    over_->setObjectName("overCases");
+    over_->setAccessibleName(tr("Values of a number of the scene, all of which one setting serves"));
+    over_->setPlaceholderText(QStringLiteral("/initial/q/0=0.5,1,1.5"));
+    over_->setToolTip(
+        tr("2 to 64 values of a number of the scene, or POINTER=FROM:TO:N[:log]: one setting has to serve "
+           "them all. Empty: the scene as it is"));
+    of_ = new ComboBox;
+    of_->setAccessibleName(tr("Which of their errors counts"));
+    of_->addItem(tr("the worst"), QStringLiteral("worst"));
+    of_->addItem(tr("the median"), QStringLiteral("median"));
+    auto* cases = new QHBoxLayout;
+    for (QWidget* each : std::initializer_list<QWidget*>{areAll_, overLabel_, over_, of_})
+        cases->addWidget(each, each == over_ ? 1 : 0);
+    body()->addLayout(cases);
 }
 
 const StudyEntry& StudyForm::chosen() const {
@@ -91,6 +116,9 @@ void StudyForm::showOptions() {
     for (QWidget* each : std::initializer_list<QWidget*>{metricLabel_, metric_, isAtEnd_})
         each->setVisible(hasMetric);
     wishes_->setVisible(entry.over == Over::wantedError);
+    areAll_->setVisible(entry.over == Over::wantedError);
+    for (QWidget* each : std::initializer_list<QWidget*>{overLabel_, over_, of_})
+        each->setVisible(entry.over == Over::wantedError || entry.over == Over::wishes);
     findsLimits_->setVisible(entry.over == Over::numbers);
     x_->setVisible(entry.over == Over::numbers);
     y_->setVisible(entry.over == Over::numbers);
@@ -120,7 +148,7 @@ Study StudyForm::study(const ResolvedScene& resolved, double wantedError) const 
     if (metric_->currentText().isEmpty())
         throw InvalidScene("", "the system has nothing that this study measures",
                            "a reference in the scene, or another study");
-    if (over == Over::wantedError) return cheapest(resolved, wantedError);
+    if (over == Over::wantedError || over == Over::wishes) return search(resolved, wantedError);
     if (over == Over::usableSteps) {
         LimitsOptions options;
         options.wishes = {{metric_->currentText().toStdString(), wantedError}};
@@ -130,23 +158,21 @@ Study StudyForm::study(const ResolvedScene& resolved, double wantedError) const 
     SweepOptions options;
     options.metric = metric_->currentText().toStdString();
     options.isAtEnd = isAtEnd_->isChecked();
-    if (over == Over::wishes) {
-        options.rungs = usualRungs();
-        options.hasAllCandidates = true;
-    }
     return Sweep(resolved, options);
 }
 
-/// As the command line has it: the wanted error and the wishes beside it.
-Study StudyForm::cheapest(const ResolvedScene& resolved, double wantedError) const {
+/// As the command line has it: the wanted error and the wishes beside it, or a ladder of wishes.
+Study StudyForm::search(const ResolvedScene& resolved, double wantedError) const {
+    const bool isLadder = chosen().over == StudyEntry::Over::wishes;
     StudyRequest request;
     request.kind = chosen().item.id;
-    request.wishes = wishes_->wishes();
+    if (!isLadder) request.wishes = wishes_->wishes();
+    if (!isLadder && areAll_->isChecked()) request.candidates = "all";
     request.isFinal = isAtEnd_->isChecked();
-    if (!wishes_->areAlone()) {
-        request.metric = metric_->currentText().toStdString();
-        request.error = wantedError;
-    }
+    request.over = over_->text().trimmed().toStdString();
+    if (!request.over.empty()) request.of = of_->currentData().toString().toStdString();
+    if (isLadder || !wishes_->areAlone()) request.metric = metric_->currentText().toStdString();
+    if (!isLadder && !wishes_->areAlone()) request.error = wantedError;
     return makeStudy(chosen(), request, &resolved, 0);
 }
 

@@ -8,6 +8,7 @@
 class QCheckBox;
 class QComboBox;
 class QLabel;
+class QLineEdit;
 class QProgressBar;
 class QPushButton;
 
@@ -41,12 +42,14 @@ signals:
 
 private:
     void showOptions();
-    Study cheapest(const ResolvedScene& resolved, double wantedError) const;
+    void addCases();
+    Study search(const ResolvedScene& resolved, double wantedError) const;
 
-    QComboBox* kind_;
+    QComboBox *kind_, *of_;
     MetricBox* metric_;
-    QLabel *metricLabel_, *state_;
-    QCheckBox *isAtEnd_, *findsLimits_;
+    QLabel *metricLabel_, *overLabel_, *state_;
+    QCheckBox *isAtEnd_, *findsLimits_, *areAll_;
+    QLineEdit* over_;
     VariedNumberEdit *x_, *y_;
     WishesEdit* wishes_;
     QPushButton* run_;
