@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/model/slow/slow_models.hpp"
+
 namespace extremal {
 
 System::System() = default;
@@ -19,6 +21,7 @@ void forgetKnownMotion(System& system) {
     system.phaseError = {};
     system.fast = {};
     system.reduced.clear();
+    if (system.parts.find<SlowModels>()) system.parts.set(SlowModels{});
 }
 
 const Measure* measureOf(const System& system, std::string_view observable) {

@@ -17,6 +17,9 @@
 
 namespace extremal::bench {
 
+/// What a run says that failed.
+inline const std::vector<double> failed{HUGE_VAL};
+
 struct Point {
     double error, time;
 };

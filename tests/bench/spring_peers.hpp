@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/text/text.hpp"
 #include "engine/family/multiscale/multiscale.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/scheme_makers.hpp"
@@ -211,6 +212,13 @@ void addLibraries(std::vector<Curve>& curves, const Spring& p, const SpringForm&
 #endif
 }
 
+/// A slow model under Gauss's rule, with polynomials of this degree.
+inline Discretization namedSlow(const char* model, int degree) {
+    const auto n = static_cast<double>(degree);
+    return {
+        {"slow", {{"model", model}, {"degree", n}}, {}}, {"gauss", {{"nodes", n}, {"panels", 1.0}}, {}}, {}};
+}
+
 inline void springs(PeerTable& table) {
     for (const double k : {1e4, 1e6, 1e8, 1e12}) {
         const Spring p = springOf(k);
@@ -226,6 +234,16 @@ inline void springs(PeerTable& table) {
         steps("6/4 [3,0]", false, polar, schemeOf(multiscalePair(6, 4, {3, 0})), few);
         for (const std::string r : {"1", "2", "3"})
             steps("R" + r, false, polar, schemeOf(*namedScheme("multiscale-r" + r)), few);
+        // Slow models: nodes at the rows, or at some of them.
+        for (const char* model : {"rod", "averaged", "normal-form-1", "normal-form-2", "normal-form-3"})
+            for (const int degree : {3, 4, 6, 8})
+                for (const double tolerance : {0.0, 1e-10, 1e-7, 1e-4}) {
+                    Discretization d = namedSlow(model, degree);
+                    if (tolerance > 0) d.solver = {"auto", {{"tolerance", tolerance}}, {}};
+                    steps(std::string(model) + " Gauss " + std::to_string(2 * degree) + " to " +
+                              formatNumber(tolerance),
+                          false, polar, schemeOf(d), {5, 10, 20, 25, 50, 100});
+                }
         std::vector<double> many;
         for (const double n : ratios(100, 2e7, 1.3))
             if (const double whole = 100 * std::ceil(n / 100); many.empty() || whole > many.back())

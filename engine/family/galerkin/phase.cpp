@@ -9,8 +9,8 @@
 #include "engine/model/first_order/poisson.hpp"
 #include "engine/model/spins/spins.hpp"
 #include "engine/phase/field_step.hpp"
+#include "engine/phase/flow_step.hpp"
 #include "engine/phase/one_form_step.hpp"
-#include "engine/phase/phase_step.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/space/typed.hpp"
 
@@ -55,11 +55,7 @@ std::unique_ptr<Integrator> phaseStep(const System& system, const Discretization
     if (const OneForm* const form = system.parts.find<OneForm>(); form && form->hasPlane())
         return makeOneFormStep(*form, table, step, policy);
     if (isFirstOrder(system)) return makeFieldStep(firstOrderOf(system), table, step, policy);
-    const PhaseMechanics& mechanics = system.part<PhaseMechanics>();
-    if (!mechanics.isSeparable()) return makePhaseStep(mechanics, table, step, policy);
-    // p = m v at the nodes: the same cell, as that of a Lagrangian.
-    return makeCondensed(
-        flowOf(mechanics), [table](double) { return std::vector{table}; }, step, policy);
+    return makeFlowStep(system.part<PhaseMechanics>(), table, step, policy);
 }
 
 WrittenAction writtenPhase(const System& system) {

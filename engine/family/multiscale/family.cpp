@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Spaces that contain a fast oscillation: steps of many of its periods (Leok 2004, sec. 7).
+/// Spaces that contain a fast oscillation, or know it in closed form: steps of many of its periods (Leok
+/// 2004, sec. 7).
 #include <algorithm>
 #include <numbers>
 #include <string>
@@ -11,12 +12,15 @@
 #include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/family/multiscale/product.hpp"
 #include "engine/family/multiscale/resonance.hpp"
+#include "engine/family/multiscale/slow.hpp"
 #include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/model_in_place.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/family/parts/scheme_identity.hpp"
 #include "engine/family/parts/solver_methods.hpp"
 #include "engine/family/parts/starts.hpp"
 #include "engine/family/parts/variant.hpp"
+#include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/condensed.hpp"
 #include "engine/quadrature/catalog.hpp"
@@ -88,6 +92,7 @@ SpaceEntry productForm() {
 }
 
 std::string mismatchOf(const Discretization& d, const System& system) {
+    if (isSlow(d.space)) return slowMismatch(d.space, system);
     if (d.space.text("omega") != "model" || system.fast.frequency > 0) return {};
     return system.id + " does not say how fast it oscillates";
 }
@@ -100,8 +105,9 @@ Discretization estimate(const Discretization& d, const System& system, const Sta
     return known;
 }
 
-/// A step near one at which it is singular.
-void checkResonance(const SchemeCase& scheme, Findings& findings) {
+/// A step near one at which it is singular, or a model that does not fit.
+void checkMultiscale(const SchemeCase& scheme, Findings& findings) {
+    if (isSlow(scheme.discretization.space)) return checkSlow(scheme, findings);
     const double h = scheme.step;
     const auto found =
         resonanceOf(scheme.system, estimate(scheme.discretization, scheme.system, scheme.initial), h);
@@ -125,7 +131,8 @@ ReferencePlan overFastMotion(const System& system, const State&, double duration
     return plan;
 }
 
-WrittenAction written(const Discretization&) {
+WrittenAction written(const Discretization& d) {
+    if (isSlow(d.space)) return writtenSlow(d.space);
     return {
         "q is a slow polynomial plus harmonics of a fast phase θ with polynomial amplitudes; the amplitudes "
         "are unknowns. The rule is a grid of slow nodes c_i and phases θ_k, with Filon weights b_ik.",
@@ -191,23 +198,27 @@ Family multiscale() {
     Family f;
     f.item = {"multiscale", "multiscale", "Spaces that contain a fast oscillation.", {}, {}, "coordinates"};
     f.source = "Leok 2004, sec. 7";
-    f.spaces = {oscillatory(), productForm()};
+    f.spaces = {oscillatory(), productForm(), slowSpace()};
     f.completeRule = [](const Settings& space, const Settings& quadrature) {
+        if (isSlow(space)) return completeSlowRule(space, quadrature);
         return isProduct(space) ? completeProductRule(space, quadrature)
                                 : completeOscillatoryRule(space, quadrature);
     };
     f.describe = [](const Discretization& d) {
+        if (isSlow(d.space)) return describeSlow(d.space, d.quadrature);
         return isProduct(d.space) ? describeProduct(d.space, d.quadrature)
                                   : describeOscillatory(d.space, d.quadrature);
     };
-    f.check = checkResonance;
+    f.check = checkMultiscale;
     f.choices = choices;
-    f.rules = [](const Settings&) {
+    f.rules = [](const Settings& space) {
+        if (isSlow(space)) return plainRules();
         return std::vector<std::string>{"auto", "filon-lobatto", "filon-gauss", "gauss", "lobatto"};
     };
     f.written = written;
     f.make = [](const System& system, const Discretization& d, double first) {
         const SolverPolicy policy = solverPolicy(d.solver, system);
+        if (isSlow(d.space)) return makeSlowStep(system, d, first, policy);
         if (isProduct(d.space)) return makeProductIntegrator(system, d, {0, first}, policy);
         auto tables = [system, d, first, made = oscillatoryTables(system, d, first)](double step) {
             return step == first ? made : oscillatoryTables(system, d, step);
@@ -217,6 +228,9 @@ Family multiscale() {
     f.parts.set(SolverMethods{{"newton"}});  // fixed-point iteration diverges on fast oscillations
     f.parts.set(SchemeCondition{mismatchOf});
     f.parts.set(StartEstimate{estimate});
+    f.parts.set(ModelInPlace{[](const Discretization& d, const System& system) {
+        return isSlow(d.space) ? slowTitle(d.space, system) : std::string();
+    }});
     f.parts.set(TrustedScheme{overFastMotion});
     f.parts.set(Variant{});
     f.parts.set(SchemeIdentity{[](const Discretization& a, double, const Discretization& b) {

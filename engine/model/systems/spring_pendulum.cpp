@@ -11,6 +11,7 @@
 
 #include "engine/model/bind.hpp"
 #include "engine/model/parameters.hpp"
+#include "engine/model/slow/spring_models.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
 
@@ -75,54 +76,6 @@ FastMotion::Flow turn(const SpringPendulum& s, double time) {
     };
 }
 
-/// The spring a rod: y = (theta, p_theta).
-ReducedMotion rigidMotion(const SpringPendulum& s, const State& initial) {
-    ReducedMotion r;
-    r.start = {initial.x[1], initial.x[3]};
-    r.rate = [s](const double* y, double* rate) {
-        rate[0] = y[1] / (s.m * s.l * s.l);
-        rate[1] = -s.m * s.g * s.l * std::sin(y[0]);
-    };
-    r.embed = [](const double* y, double* x) {
-        x[0] = x[2] = 0;
-        x[1] = y[0];
-        x[3] = y[1];
-    };
-    return r;
-}
-
-/// The spring at its mean for this motion: k a = m g cos theta + p^2 / (m r^3), r = l + a.
-double meanExtension(const SpringPendulum& s, const double* y) {
-    double a = 0;
-    for (int i = 0; i < 8; ++i) {
-        const double r = s.l + a;
-        a = (s.m * s.g * std::cos(y[0]) + y[1] * y[1] / (s.m * r * r * r)) / s.k;
-    }
-    return a;
-}
-
-/// Averaged over the oscillation, whose invariant I = E/w stays: H = p^2/(2 m r^2) - m g r cos theta + k
-/// a^2/2 + I w(p), a the mean extension, w^2 = k/m + 3 p^2/(m^2 r^4). Fast parts of theta and p_theta, of
-/// order 1/w^2, are taken off at the start.
-ReducedMotion averagedMotion(const SpringPendulum& s, const State& initial) {
-    const double* x = initial.x.data();
-    const double w = s.frequency(x), invariant = s.oscillation(x) / w, shift = x[2] / (s.m * w * w);
-    ReducedMotion r;
-    r.start = {x[1] - 2 * x[3] / (s.m * s.l * s.l * s.l) * shift, x[3] - s.m * s.g * std::sin(x[1]) * shift};
-    r.rate = [s, invariant](const double* y, double* rate) {
-        const double R = s.l + meanExtension(s, y), turn = y[1] / (s.m * R * R);
-        rate[0] = turn + invariant * 3 * turn / (s.m * R * R * std::sqrt(s.k / s.m + 3 * turn * turn));
-        rate[1] = -s.m * s.g * R * std::sin(y[0]);
-    };
-    r.embed = [s](const double* y, double* state) {
-        state[0] = meanExtension(s, y);
-        state[1] = y[0];
-        state[2] = 0;
-        state[3] = y[1];
-    };
-    return r;
-}
-
 const std::vector<Field<SpringPendulum>>& springPendulumFields() {
     static const std::vector<Field<SpringPendulum>> all = {
         {&SpringPendulum::m, positive("m", "mass", "kg", 1, "Mass of the bob.")},
@@ -157,8 +110,9 @@ System makeSpringPendulum(const Settings& settings) {
               [model](double time) { return oscillate(model, time); },
               {[model](double time) { return fall(model, time); },
                [model](double time) { return turn(model, time); }}};
-    s.reduced = {{"rigid-pendulum", [model](const State& initial) { return rigidMotion(model, initial); }},
-                 {"averaged", [model](const State& initial) { return averagedMotion(model, initial); }}};
+    SlowModels slow{slow::springModels({model.m, model.g, model.l, model.k})};
+    s.reduced = {reducedModel("rigid-pendulum", slow.all[0]), reducedModel("averaged", slow.all[1])};
+    s.parts.set(std::move(slow));
     s.draw = [l = model.l](const double* x, Drawing& drawing) {
         const double r = l + x[0];
         const Point bob{r * std::sin(x[1]), -r * std::cos(x[1]), 0};

@@ -11,6 +11,7 @@
 #include "engine/core/thread_clock.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/outlook/cost.hpp"
+#include "engine/study/model_in_place.hpp"
 #include "engine/study/search/ladder.hpp"
 
 namespace extremal {
@@ -226,10 +227,7 @@ void CandidateSearch::reduce(std::size_t index, std::span<const double> wishes, 
 
 /// A model that leaves something out of the system.
 bool CandidateSearch::isReduced(std::size_t index) const {
-    const BaselineEntry* const baseline = schemeOf(index).baseline;
-    const auto& reduced = scene_.system->reduced;
-    return baseline && std::any_of(reduced.begin(), reduced.end(),
-                                   [&](const auto& r) { return r.id == baseline->item.id; });
+    return !modelInPlace(schemeOf(index), *scene_.system).empty();
 }
 
 /// Its name, where an error that does not fall has reached one.

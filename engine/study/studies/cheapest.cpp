@@ -6,7 +6,7 @@
 #include "engine/core/known_value.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/study/catalog.hpp"
-#include "engine/study/studies/model_in_place.hpp"
+#include "engine/study/model_in_place.hpp"
 
 namespace extremal::studies {
 namespace {
@@ -111,7 +111,7 @@ std::vector<Value::Array> rowsOfPrices(const Sweep& sweep) {
                        positiveNumber(r.predictedSeconds), knownNumber(r.cpuSeconds),
                        static_cast<double>(r.cost.evaluations), knownNumber(r.error), keptOf(sweep, *row),
                        leftOutOf(sweep, *row), positiveNumber(r.tolerance), name(r.status),
-                       modelInPlace(sweep, row->point.scheme), knownNumber(r.excess), knownNumber(r.floor),
+                       modelInPlace(sweep.scene(), row->point.scheme), knownNumber(r.excess), knownNumber(r.floor),
                        knownText(r.floorOf), knownNumber(r.confirmedAt), r.reason, errorsOf(sweep, r)});
     }
     for (const RefusedCandidate& refused : sweep.refused()) {

@@ -8,7 +8,7 @@
 #include "engine/core/text/text.hpp"
 #include "engine/study/catalog.hpp"
 #include "engine/study/search/term_costs.hpp"
-#include "engine/study/studies/model_in_place.hpp"
+#include "engine/study/model_in_place.hpp"
 
 namespace extremal::studies {
 namespace {
@@ -36,7 +36,7 @@ std::vector<Value::Array> rungs(const Sweep& sweep) {
         const PointResult& r = row.result;
         if (r.status == RunStatus::waiting) continue;
         all.push_back({sweep.options().rungs[i], sweep.scene().scene.schemes[row.point.scheme].label,
-                       modelInPlace(sweep, row.point.scheme), r.isDone() ? textOfSteps(sweep, row) : "",
+                       modelInPlace(sweep.scene(), row.point.scheme), r.isDone() ? textOfSteps(sweep, row) : "",
                        knownNumber(r.cpuSeconds), knownNumber(r.error), knownNumber(r.floor),
                        knownText(r.floorOf), positiveNumber(r.step), positiveNumber(r.tolerance),
                        static_cast<double>(r.steps), static_cast<double>(r.cost.evaluations),
@@ -68,7 +68,7 @@ std::vector<Value::Array> summaryOfRungs(const Sweep& sweep) {
     for (const SweepRow* row : joined(sweep)) {
         const PointResult& r = row->result;
         const double wish = sweep.options().rungs[static_cast<std::size_t>(row - sweep.rows().data())];
-        const std::string model = modelInPlace(sweep, row->point.scheme);
+        const std::string model = modelInPlace(sweep.scene(), row->point.scheme);
         all.push_back({wish, sweep.scene().scene.schemes[row->point.scheme].label,
                        model.empty() ? Value(nullptr) : Value(model),
                        r.isDone() ? textOfSteps(sweep, *row) : "not reached: " + r.reason,

@@ -4,6 +4,7 @@
 
 #include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/family/multiscale/product.hpp"
+#include "engine/family/multiscale/slow.hpp"
 #include "engine/family/step_equations.hpp"
 
 namespace extremal::equations {
@@ -27,8 +28,9 @@ StepEquations multiscale() {
     e.matrix.instead = changing;
     e.functions = {
         richestTable, "", [](const Discretization& d) -> std::string {
-            return isOscillatory(d.space)
-                       ? ""
+            return isOscillatory(d.space) ? ""
+                   : isSlow(d.space)
+                       ? "polynomials of the slow model's coordinates"
                        : "made of products whose phase is an unknown, not of functions that are known";
         }};
     e.spaceFunctions.instead = "functions of time alone";

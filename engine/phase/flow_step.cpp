@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/phase/flow_step.hpp"
+
+#include <vector>
+
+#include "engine/integrator/condensed.hpp"
+#include "engine/phase/phase_step.hpp"
+
+namespace extremal {
+
+std::unique_ptr<Integrator> makeFlowStep(const PhaseMechanics& mechanics, const Table<double>& table,
+                                         double step, const SolverPolicy& policy) {
+    if (!mechanics.isSeparable()) return makePhaseStep(mechanics, table, step, policy);
+    return makeCondensed(
+        flowOf(mechanics), [table](double) { return std::vector{table}; }, step, policy);
+}
+
+}  // namespace extremal

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Problems of few coordinates in the table of peers: all explicit splittings, libraries and a Taylor
+/// integrator on a right-hand side by hand, against Galerkin schemes on the system as a scene has it.
+///
+/// P8   Henon-Heiles at E = 1/12, the place at t = 100
+/// P9   three bodies in the plane with close encounters (0.08 between the light ones of the preset's start),
+///      the places at t = 10
+#pragma once
+
+#include <boost/numeric/odeint.hpp>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/bench/peer_table.hpp"
+#include "tests/bench/scheme_makers.hpp"
+#include "tests/bench/taylor.hpp"
+#include "tests/engine/model/typed/typed.hpp"
+
+namespace extremal::bench {
+
+namespace odeint = boost::numeric::odeint;
+
+/// x'' = f(x) with unit masses, as a system and by hand.
+template <std::size_t d>
+struct FewBodies {
+    std::string name;
+    System system;
+    std::array<double, 2 * d> start;  ///< positions, velocities
+    double end;
+    double leastSteps, mostSteps;
+};
+
+/// `accelerate(x, a)`; `coefficients` as for integrateByTaylor.
+template <std::size_t d, class Accelerate, class Coefficients>
+void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& accelerate,
+                  Coefficients coefficients) {
+    using Array = std::array<double, 2 * d>;
+    const State start{0, 0, {p.start.begin(), p.start.end()}};
+    const auto endOf = [&](const Make& make, double n) {
+        const auto integrator = make(p.system, start, p.end / n);
+        State state = start;
+        for (double i = 0; i < n; ++i)
+            if (advance(*integrator, state).outcome != Outcome::converged) return std::vector<double>{};
+        return state.x;
+    };
+    // Two degrees and steps agree to some 1e-13.
+    const std::vector<double> exact =
+        endOf(schemeOf(*namedScheme("galerkin-gauss-12")), std::ceil(4 * p.leastSteps + 4000));
+    const auto error = [&](const auto& x) {
+        if (x.empty()) return failed;
+        double sum = 0;
+        for (std::size_t i = 0; i < d; ++i) sum += (x[i] - exact[i]) * (x[i] - exact[i]);
+        return std::vector<double>{std::sqrt(sum)};
+    };
+    std::vector<Curve> curves;
+    const std::vector<double> steps = counts(p.leastSteps, p.mostSteps, 1.12),
+                              tolerances = ratios(1e-3, 1e-16, 0.4);
+    constexpr double longest = 0.03;
+    for (const int s : {3, 4, 6, 8, 10, 12})
+        for (const double tolerance : {0.0, 1e-9}) {
+            Discretization g = *namedScheme("galerkin-gauss-" + std::to_string(s));
+            if (tolerance > 0) g.solver.keys.emplace_back("tolerance", tolerance);
+            curves.push_back(measure("Gauss " + std::to_string(2 * s) + (tolerance > 0 ? " to 1e-9" : ""),
+                                     false, steps, longest,
+                                     [&](double n) { return error(endOf(schemeOf(g), n)); }));
+        }
+    curves.push_back(measure("Gauss collocation 16", true, steps, longest, [&](double n) {
+        return error(endOf(baselineOf("gauss-collocation", {{"stages", 8.0}}), n));
+    }));
+    for (const char* id : {"srkn-6b", "srkn-11b", "srkn-14a", "blanes-moan-s10"})
+        curves.push_back(
+            measure(id, true, steps, longest, [&](double n) { return error(endOf(baselineOf(id), n)); }));
+    const auto byOdeint = [&](const auto& stepper) {
+        Array y = p.start;
+        odeint::integrate_adaptive(
+            stepper,
+            [&](const Array& x, Array& dx, double) {
+                for (std::size_t i = 0; i < d; ++i) dx[i] = x[d + i];
+                accelerate(x.data(), dx.data() + d);
+            },
+            y, 0.0, p.end, 0.01 * p.end / 100);
+        return error(y);
+    };
+    curves.push_back(measure("odeint rkf78", true, tolerances, longest, [&](double e) {
+        return byOdeint(odeint::make_controlled(e, e, odeint::runge_kutta_fehlberg78<Array>()));
+    }));
+    curves.push_back(measure("odeint bulirsch-stoer", true, tolerances, longest,
+                             [&](double e) { return byOdeint(odeint::bulirsch_stoer<Array>(e, e)); }));
+    curves.push_back(measure("rk8pd", true, tolerances, longest, [&](double e) {
+        const auto integrator = baselineOf("rk8pd")(p.system, start, e);
+        State state = start;
+        while (state.t < p.end)
+            if (integrator->advance(state, p.end).outcome != Outcome::converged) return failed;
+        return error(state.x);
+    }));
+    curves.push_back(measure("Taylor by hand", true, tolerances, longest, [&](double e) {
+        Array y = p.start;
+        integrateByTaylor<d>(y, p.end, e, coefficients);
+        return error(y);
+    }));
+    table.add(p.name, curves, 0);
+}
+
+inline void henonHeiles(PeerTable& table) {
+    const System system = findModel("henon-heiles")->make({"henon-heiles", {{"lambda", 1.0}}, {}});
+    // E = 1/12 on the section x = 0.
+    const double y = 0.1, v = 0.1, u = std::sqrt(1.0 / 6 - v * v - y * y + 2.0 / 3 * y * y * y);
+    addFewBodies<2>(
+        table, {"P8 Henon-Heiles", system, {0, y, u, v}, 100, 40, 1e6},
+        [](const double* x, double* a) {
+            a[0] = -x[0] - 2 * x[0] * x[1];
+            a[1] = -x[1] - x[0] * x[0] + x[1] * x[1];
+        },
+        [](const std::array<Taylor, 2>& x, std::size_t n) {
+            return std::array{-x[0][n] - 2 * product(x[0], x[1], n),
+                              -x[1][n] - product(x[0], x[0], n) + product(x[1], x[1], n)};
+        });
+}
+
+/// Unit masses that fall towards each other from rest, off a line.
+inline void threeBodies(PeerTable& table) {
+    const System system = laws::typedSystem(
+        {"x1", "y1", "x2", "y2", "x3", "y3"}, {},
+        "(x1_t^2 + y1_t^2 + x2_t^2 + y2_t^2 + x3_t^2 + y3_t^2)/2 + 1/sqrt((x1-x2)^2 + (y1-y2)^2)"
+        " + 1/sqrt((x1-x3)^2 + (y1-y3)^2) + 1/sqrt((x2-x3)^2 + (y2-y3)^2)");
+    addFewBodies<6>(
+        table, {"P9 three bodies", system, {1, 0, -0.5, 0.9, -0.4, -0.8, 0, 0.1, 0, 0, 0, -0.1}, 3, 60, 3e6},
+        [](const double* x, double* a) {
+            std::fill(a, a + 6, 0.0);
+            for (int i = 0; i < 3; ++i)
+                for (int j = i + 1; j < 3; ++j) {
+                    const double dx = x[2 * j] - x[2 * i], dy = x[2 * j + 1] - x[2 * i + 1],
+                                 r2 = dx * dx + dy * dy, w = 1 / (r2 * std::sqrt(r2));
+                    a[2 * i] += w * dx, a[2 * i + 1] += w * dy;
+                    a[2 * j] -= w * dx, a[2 * j + 1] -= w * dy;
+                }
+        },
+        [dx = std::array<Taylor, 3>(), dy = std::array<Taylor, 3>(), square = std::array<Taylor, 3>(),
+         force = std::array<Taylor, 3>()](const std::array<Taylor, 6>& x, std::size_t n) mutable {
+            std::array<double, 6> a{};
+            for (std::size_t i = 0, pair = 0; i < 3; ++i)
+                for (std::size_t j = i + 1; j < 3; ++j, ++pair) {
+                    Taylor &u = dx[pair], &v = dy[pair], &s = square[pair], &w = force[pair];
+                    u[n] = x[2 * j][n] - x[2 * i][n];
+                    v[n] = x[2 * j + 1][n] - x[2 * i + 1][n];
+                    s[n] = product(u, u, n) + product(v, v, n);
+                    w[n] = n == 0 ? std::pow(s[0], -1.5) : power(s, w, -1.5, n);
+                    const double fx = product(u, w, n), fy = product(v, w, n);
+                    a[2 * i] += fx, a[2 * i + 1] += fy;
+                    a[2 * j] -= fx, a[2 * j + 1] -= fy;
+                }
+            return a;
+        });
+}
+
+}  // namespace extremal::bench

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// P6n of the table of peers: the nonlinear Schroedinger equation from 2 sech x, over one period.
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "engine/core/text/text.hpp"
+#include "tests/bench/peer_table.hpp"
+#include "tests/bench/scheme_makers.hpp"
+
+namespace extremal::bench {
+
+/// 2 sech x to pi/2 on 1024 modes; peers are the splittings with FFTW and sines in vector registers.
+inline void solitons(PeerTable& table) {
+    constexpr double end = std::numbers::pi / 2;
+    const ModelEntry* const model = findModel("schrodinger");
+    Settings settings{"schrodinger", {}, {}};
+    for (const FieldInfo& f : model->item.parameters) settings.keys.emplace_back(f.key, f.firstValue());
+    for (auto& [key, value] : settings.keys) {
+        if (key == "domain") value = Value::Array{-24.0, 24.0};
+        if (key == "modes") value = 1024.0;
+        if (key == "interaction") value = -1.0;
+    }
+    const System system = model->make(settings);
+    const Settings initial{"", {{"psi", Value::Object{{"packet", "two-soliton"}}}}, {}};
+    State start;
+    start.x = system.start(initial, 0);
+    std::vector<double> exact(start.x.size());
+    system.exactFrom(initial, start)(end, exact);
+    const auto errorWith = [&](std::unique_ptr<Integrator> integrator, int steps) {
+        State state = start;
+        for (int k = 0; k < steps; ++k)
+            if (advance(*integrator, state).outcome != Outcome::converged) return failed;
+        double error = 0;
+        system.error.evaluate(state.x.data(), exact.data(), &error);
+        return std::vector<double>{error};
+    };
+    std::vector<Curve> curves;
+    for (const int degree : {2, 3, 4, 6, 8})
+        for (const double tolerance : {1e-7, 1e-10, 1e-12})
+            curves.push_back(
+                measure("Gauss " + std::to_string(2 * degree) + ", tolerance " + formatNumber(tolerance),
+                        false, counts(10, 1000, 1.2), 0.1, [&](double steps) {
+                            Discretization d = *namedScheme("schrodinger-gauss-" + std::to_string(degree));
+                            d.solver = {"auto", {{"tolerance", tolerance}}, {}};
+                            return errorWith(
+                                makeIntegrator(system, withEstimates(d, system, start), {0, end / steps}),
+                                static_cast<int>(steps));
+                        }));
+    for (const char* id : {"strang", "blanes-moan-s6", "srkn-6b", "srkn-11b", "srkn-14a"})
+        curves.push_back(measure(id, true, counts(10, 4000, 1.2), 0.1, [&](double steps) {
+            return errorWith(findBaseline(id)->make(system, {.step = end / steps, .settings = {id, {}, {}}}),
+                             static_cast<int>(steps));
+        }));
+    table.add("P6n two solitons", curves, 0);
+}
+
+}  // namespace extremal::bench

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// P5 of the table of peers: a wave function in a cosine well, N = 256 and 512, at t = 1.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/bench/peer_table.hpp"
+#include "tests/bench/wave_costs.hpp"
+
+namespace extremal::bench {
+
+inline void waves(PeerTable& table) {
+    for (const int modes : {256, 512}) {
+        WaveProblem p{"P5", onCircle("50*(1 - cos(x))", 1, modes), {}, 1, {}, 3e-16};
+        p.start = packet(p.system, 20, 5);
+        p.exact = knownState(p.system, modes);
+        std::vector<Curve> curves;
+        const auto add = [&](const std::string& name, bool isPeer, const Method& method) {
+            curves.push_back(measure(name, isPeer, counts(2, 3e5, 1.12), 0.05, [&](double n) {
+                return std::vector<double>{errorOf(p, method(p, static_cast<int>(n)))};
+            }));
+        };
+        for (const int degree : {4, 8, 12, 16})
+            for (const double tolerance : {0.0, 1e-10})
+                add("Gauss " + std::to_string(2 * degree) + (tolerance > 0 ? " in fours" : " in pairs"),
+                    false, pairMethod(degree, "banded", tolerance));
+        add("SRKN 14a by hand", true, bareSrkn14a);
+        for (const char* id : {"srkn-14a", "srkn-11b", "strang", "chebyshev-propagation"})
+            add(id, true, baselineMethod(id));
+        table.add("P5 wave, N=" + std::to_string(modes), curves, 0);
+    }
+}
+
+}  // namespace extremal::bench
