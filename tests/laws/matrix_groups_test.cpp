@@ -181,9 +181,11 @@ private slots:
                              {0.4, 0.1, 0.3, -0.2, 0.5, 0.1},
                              10,
                              1};
-        const char* const L = "(xi1^2 + 2*xi2^2 + 3*xi3^2)/2";
-        const GroupCase first{"", "so3", L, {}, {0.4, 0.1, 0.3}, 10, 1},
-            second{"", "so3", L, {}, {-0.2, 0.5, 0.1}, 10, 1};
+        // Each beside a circle, and so by the same route: alone it is stepped as a rigid body.
+        const char* const L = "(a_xi1^2 + 2*a_xi2^2 + 3*a_xi3^2)/2 + b_xi1^2/2";
+        const Value beside = twoOf("so3", "u1", "a", "b");
+        const GroupCase first{"", beside, L, {}, {0.4, 0.1, 0.3, 1}, 10, 1},
+            second{"", beside, L, {}, {-0.2, 0.5, 0.1, 1}, 10, 1};
         const System two = both.system(), one = first.system();
         const auto end = after(*makeIntegrator(two, liePair(2), {0, 0.1}), both.start(two), 400),
                    a = after(*makeIntegrator(one, liePair(2), {0, 0.1}), first.start(one), 400),
