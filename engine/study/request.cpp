@@ -68,7 +68,8 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
         if (option == "--candidates") isOwn = isOwn || entry.over == Over::wishes;
         if (option == "--search-time")
             isOwn = isOwn || entry.over == Over::wishes || entry.over == Over::usableSteps;
-        if (option == "--over" || option == "--of" || option == "--knobs") isOwn = isOwn || entry.over == Over::wishes;
+        if (option == "--over" || option == "--of" || option == "--knobs")
+            isOwn = isOwn || entry.over == Over::wishes;
         if (option == "--x" || option == "--y") isOwn = isOwn || isChanged;
         if (isGiven && !isOwn)
             throw InvalidScene(std::string(option), "is not an option of " + entry.item.id,

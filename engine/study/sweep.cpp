@@ -222,8 +222,8 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
     const std::vector<Metric> sizedMetrics = metrics;
     CandidateSearch search(
         scene_, searched, std::move(metrics),
-        [&](const StudyPoint& point) { return reference.of(scene_, point); }, reference_,
-        isCounted, seconds, stop);
+        [&](const StudyPoint& point) { return reference.of(scene_, point); }, reference_, isCounted, seconds,
+        stop);
     search.judgeOver(cases_, options_.over.isMedian);
     search.setKnobs(options_.knobs);
     if (isLadder) return climb(search, wanted, onPoint, stop);

@@ -36,8 +36,8 @@ std::string pointLine(std::size_t index, const PointResult& r) {
          {r.steps, r.cost.iterations, r.cost.evaluations, r.cost.linearSolves, r.cost.rejected})
         line += ',' + std::to_string(value);
     line += cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
-    line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes) +
-            ',' + std::to_string(r.reduction.cells);
+    line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes) + ',' +
+            std::to_string(r.reduction.cells);
     line += cellsText({r.unreducedWork, r.timesCheapest, r.excess, r.floor, r.confirmedAt});
     return line + ',' + r.floorOf + ',' + withoutCommas(r.reason) + ',' + errorsText(r.errors) + ',' +
            std::to_string(r.scheme);

@@ -411,7 +411,7 @@ std::pair<std::size_t, PointResult> CandidateSearch::cheapest(std::span<const do
     std::pair<std::size_t, PointResult> best{0, fullResultOf(race, 0, wishes)};
     const auto isBetter = [](const PointResult& a, const PointResult& b) {
         if (a.isDone() != b.isDone()) return a.isDone();
-        if (a.isDone()) return a.reason == "the cheapest";
+        if (a.isDone()) return a.reason.starts_with("the cheapest");
         return a.excess < b.excess || std::isnan(b.excess);
     };
     for (std::size_t i = 1; i < schemes_.size(); ++i)

@@ -61,15 +61,15 @@ std::string keptOf(const Sweep& sweep, const SweepRow& row) {
 /// and what the smaller scheme saves, against the largest step of the scheme as it is.
 std::string leftOutOf(const Sweep& sweep, const SweepRow& row) {
     constexpr double givenUp = 100;
-    if (!row.result.isDone() && row.result.timesCheapest >= givenUp)
+    const bool hasFloor = row.result.floorOf == "mesh";  // which says more
+    if (!row.result.isDone() && row.result.timesCheapest >= givenUp && !hasFloor)
         return "given up: would take " + formatNumber(std::floor(row.result.timesCheapest)) + " times the " +
                (sweep.options().repeat == 0 ? "evaluations" : "time") + " of the cheapest";
     if (!row.result.isDone()) return "";
     std::vector<std::string> all;
     if (const Reduction kept = row.result.reduction; kept.cells > 0) {
         const int has = cellsOf(sweep.scene().schemes[row.point.scheme], sweep.scene());
-        if (has > kept.cells)
-            all.push_back(std::to_string(has - kept.cells) + " of " + counted(has, "cell"));
+        if (has > kept.cells) all.push_back(std::to_string(has - kept.cells) + " of " + counted(has, "cell"));
     } else if (kept) {
         const Reduction has = richnessOf(sweep.scene().schemes[row.point.scheme]);
         if (has.degree > kept.degree) all.push_back(counted(has.degree - kept.degree, "degree"));
@@ -135,7 +135,9 @@ std::vector<Value::Array> summaryOfPrices(const Sweep& sweep) {
                                                    : row[8],
                        row[9], row[10], row[17]});
         if (isReached && (sweep.options().hasAllCandidates || sweep.options().budget > 0))
-            all.back()[7] = row[16];
+            all.back()[7] =
+                (row[7].asString().find(" cell") != std::string::npos ? row[7].asString() + "; " : "") +
+                row[16].asString();
     }
     return all;
 }
