@@ -3,8 +3,6 @@
 /// integrator on a right-hand side by hand, against Galerkin schemes on the system as a scene has it.
 ///
 /// P8   Henon-Heiles at E = 1/12, the place at t = 100
-/// P9   three bodies in the plane with close encounters (0.08 between the light ones of the preset's start),
-///      the places at t = 10
 #pragma once
 
 #include <boost/numeric/odeint.hpp>
@@ -17,7 +15,6 @@
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/scheme_makers.hpp"
 #include "tests/bench/taylor.hpp"
-#include "tests/engine/model/typed/typed.hpp"
 
 namespace extremal::bench {
 
@@ -117,42 +114,6 @@ inline void henonHeiles(PeerTable& table) {
         [](const std::array<Taylor, 2>& x, std::size_t n) {
             return std::array{-x[0][n] - 2 * product(x[0], x[1], n),
                               -x[1][n] - product(x[0], x[0], n) + product(x[1], x[1], n)};
-        });
-}
-
-/// Unit masses that fall towards each other from rest, off a line.
-inline void threeBodies(PeerTable& table) {
-    const System system = laws::typedSystem(
-        {"x1", "y1", "x2", "y2", "x3", "y3"}, {},
-        "(x1_t^2 + y1_t^2 + x2_t^2 + y2_t^2 + x3_t^2 + y3_t^2)/2 + 1/sqrt((x1-x2)^2 + (y1-y2)^2)"
-        " + 1/sqrt((x1-x3)^2 + (y1-y3)^2) + 1/sqrt((x2-x3)^2 + (y2-y3)^2)");
-    addFewBodies<6>(
-        table, {"P9 three bodies", system, {1, 0, -0.5, 0.9, -0.4, -0.8, 0, 0.1, 0, 0, 0, -0.1}, 3, 60, 3e6},
-        [](const double* x, double* a) {
-            std::fill(a, a + 6, 0.0);
-            for (int i = 0; i < 3; ++i)
-                for (int j = i + 1; j < 3; ++j) {
-                    const double dx = x[2 * j] - x[2 * i], dy = x[2 * j + 1] - x[2 * i + 1],
-                                 r2 = dx * dx + dy * dy, w = 1 / (r2 * std::sqrt(r2));
-                    a[2 * i] += w * dx, a[2 * i + 1] += w * dy;
-                    a[2 * j] -= w * dx, a[2 * j + 1] -= w * dy;
-                }
-        },
-        [dx = std::array<Taylor, 3>(), dy = std::array<Taylor, 3>(), square = std::array<Taylor, 3>(),
-         force = std::array<Taylor, 3>()](const std::array<Taylor, 6>& x, std::size_t n) mutable {
-            std::array<double, 6> a{};
-            for (std::size_t i = 0, pair = 0; i < 3; ++i)
-                for (std::size_t j = i + 1; j < 3; ++j, ++pair) {
-                    Taylor &u = dx[pair], &v = dy[pair], &s = square[pair], &w = force[pair];
-                    u[n] = x[2 * j][n] - x[2 * i][n];
-                    v[n] = x[2 * j + 1][n] - x[2 * i + 1][n];
-                    s[n] = product(u, u, n) + product(v, v, n);
-                    w[n] = n == 0 ? std::pow(s[0], -1.5) : power(s, w, -1.5, n);
-                    const double fx = product(u, w, n), fy = product(v, w, n);
-                    a[2 * i] += fx, a[2 * i + 1] += fy;
-                    a[2 * j] -= fx, a[2 * j + 1] -= fy;
-                }
-            return a;
         });
 }
 

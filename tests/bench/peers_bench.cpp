@@ -11,7 +11,7 @@
 /// P6  sine-Gordon breather, w = 0.9, to t = 100
 /// P6n nonlinear Schroedinger equation, 2 sech x, over one period, against the splittings of the program
 /// P7  chain of 100 balls on rods, the place of the last at t = 5, against RATTLE and IDA (chain_peers.hpp)
-/// P8  Henon-Heiles, the place at t = 100; P9 three bodies with close encounters (few_body_peers.hpp)
+/// P8  Henon-Heiles, the place at t = 100 (few_body_peers.hpp)
 ///
 /// Peers are loops by hand around Boost.odeint and splittings, and the methods in common use that the program
 /// offers beside its own (GSL, SUNDIALS, SRKN, impulse, Gauss collocation with its nodes in vector registers,
@@ -165,8 +165,7 @@ int main(int argc, char** argv) {
                                        {"P6", breather},
                                        {"P6n", solitons},
                                        {"P7", chains},
-                                       {"P8", henonHeiles},
-                                       {"P9", threeBodies}})
+                                       {"P8", henonHeiles}})
         if (wanted.empty() || wanted.contains(problem)) run(table);
     if (csv && !table.writeCsv(csv)) {
         std::fprintf(stderr, "%s cannot be written\n", csv);

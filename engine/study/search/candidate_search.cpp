@@ -254,6 +254,7 @@ std::string CandidateSearch::reasonOf(const CandidateRace& race, std::size_t ind
         case RaceEnd::reached:
             return "reached at single steps only: a finer one fails";
         case RaceEnd::dearer: {
+            if (nearest.floorOf == "model") return "ends at " + formatNumber(nearest.error, 2) + " (model)";
             if (!(race.predictedN(index) > 0)) return "would be dearer than the cheapest";
             const double times = nearest.timesCheapest;
             const std::string needs =
@@ -312,7 +313,11 @@ PointResult CandidateSearch::resultOf(const CandidateRace& race, std::size_t ind
     result.status = RunStatus::failed;
     if (race.predictedCost(index) > 0 && std::isfinite(least))
         result.timesCheapest = race.predictedCost(index) / least;
-    const bool isModel = race.endOf(index) == RaceEnd::stalled && isReduced(index);
+    // Errors of a model that no longer fall are its own, whatever its order promises.
+    constexpr double flat = 0.1;
+    const bool isFlat = runs.size() > 1 && std::abs(runs.back().excess - runs[runs.size() - 2].excess) < flat,
+               isModel = isReduced(index) && (race.endOf(index) == RaceEnd::stalled ||
+                                              (race.endOf(index) == RaceEnd::dearer && isFlat));
     if ((race.endOf(index) == RaceEnd::atFloor || isModel) && result.cause != Outcome::refused)
         nameFloor(index, result);
     result.reason = reasonOf(race, index, result);
