@@ -105,6 +105,40 @@ void addPage(CLI::App& app, Arguments& arguments) {
     addCommon(verb, arguments.common);
 }
 
+/// What is wanted of a search, and what it searches.
+void addSearch(CLI::App& verb, StudyOptions& study) {
+    verb.add_option("--error", study.error, "for cheapest: the error to be reached")->type_name("E");
+    verb.add_option("--wish", study.wishes,
+                    "for cheapest, limits and extremes: a metric and the value it stays below; repeatable, "
+                    "all must hold; for needs: a rung of the ladder, 0.1 to 1e-12 by default")
+        ->type_name("METRIC=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option(
+            "--budget", study.budget,
+            "for cheapest: the smallest error for this CPU time of a run (1ms), or of a second of its "
+            "motion (1ms/s)")
+        ->type_name("TIME[/s]");
+    verb.add_option("--candidates", study.candidates,
+                    "for cheapest: the schemes of the scene (default), or all that accept it; for needs all "
+                    "by default")
+        ->type_name("scene|all");
+    verb.add_option(
+            "--over", study.over,
+            "for cheapest and needs: values of a number of the scene, all of which one setting must serve")
+        ->type_name("POINTER=A,B,C or POINTER=FROM:TO:N[:log]");
+    verb.add_option("--of", study.of, "the errors over these: the worst (default) or the median")
+        ->type_name("worst|median");
+    verb.add_option("--knobs", study.knobs,
+                    "for cheapest and needs: what is searched besides the step, all by default: degree (and "
+                    "nodes), cells (elements of fields)")
+        ->type_name("step,degree,cells");
+    verb.add_option("--search-time", study.searchTime,
+                    "for cheapest and needs: CPU time of the search, 1s and 4s by default; for limits "
+                    "of each scheme, 2s")
+        ->type_name("TIME");
+}
+
 /// `study KIND SCENE`, and `study merge DIR...`: one verb, whose first word decides.
 void addStudy(CLI::App& app, Arguments& arguments) {
     StudyOptions& study = arguments.study;
@@ -140,36 +174,7 @@ void addStudy(CLI::App& app, Arguments& arguments) {
     verb.add_option("--y", study.y, "a second one")->type_name("POINTER=FROM:TO:N[:log]");
     verb.add_flag("--limit", study.findsLimits, "bisect the limit along --x to four digits");
     verb.add_flag("--long", study.isLong, "for extremes: also the runs of 10^9 steps, which take minutes");
-    verb.add_option("--error", study.error, "for cheapest: the error to be reached")->type_name("E");
-    verb.add_option("--wish", study.wishes,
-                    "for cheapest, limits and extremes: a metric and the value it stays below; repeatable, "
-                    "all must hold; for needs: a rung of the ladder, 0.1 to 1e-12 by default")
-        ->type_name("METRIC=VALUE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    verb.add_option(
-            "--budget", study.budget,
-            "for cheapest: the smallest error for this CPU time of a run (1ms), or of a second of its "
-            "motion (1ms/s)")
-        ->type_name("TIME[/s]");
-    verb.add_option("--candidates", study.candidates,
-                    "for cheapest: the schemes of the scene (default), or all that accept it; for needs all "
-                    "by default")
-        ->type_name("scene|all");
-    verb.add_option(
-            "--over", study.over,
-            "for cheapest and needs: values of a number of the scene, all of which one setting must serve")
-        ->type_name("POINTER=A,B,C or POINTER=FROM:TO:N[:log]");
-    verb.add_option("--of", study.of, "the errors over these: the worst (default) or the median")
-        ->type_name("worst|median");
-    verb.add_option("--knobs", study.knobs,
-                    "for cheapest and needs: what is searched besides the step, all by default: degree (and "
-                    "nodes), cells (elements of fields)")
-        ->type_name("step,degree,cells");
-    verb.add_option("--search-time", study.searchTime,
-                    "for cheapest and needs: CPU time of the search, 1s and 4s by default; for limits "
-                    "of each scheme, 2s")
-        ->type_name("TIME");
+    addSearch(verb, study);
     verb.add_option("--repeat", study.repeat, "timed runs per point, 5 by default; 0: no times")
         ->type_name("R");
     verb.add_option("--only", study.only, "the label of a scheme; repeatable")
