@@ -111,8 +111,9 @@ std::vector<Value::Array> rowsOfPrices(const Sweep& sweep) {
                        positiveNumber(r.predictedSeconds), knownNumber(r.cpuSeconds),
                        static_cast<double>(r.cost.evaluations), knownNumber(r.error), keptOf(sweep, *row),
                        leftOutOf(sweep, *row), positiveNumber(r.tolerance), name(r.status),
-                       modelInPlace(sweep.scene(), row->point.scheme), knownNumber(r.excess), knownNumber(r.floor),
-                       knownText(r.floorOf), knownNumber(r.confirmedAt), r.reason, errorsOf(sweep, r)});
+                       modelInPlace(sweep.scene(), row->point.scheme), knownNumber(r.excess),
+                       knownNumber(r.floor), knownText(r.floorOf), knownNumber(r.confirmedAt), r.reason,
+                       errorsOf(sweep, r)});
     }
     for (const RefusedCandidate& refused : sweep.refused()) {
         Value::Array row(cheapestColumns().size(), Value(nullptr));

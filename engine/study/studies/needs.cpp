@@ -36,11 +36,12 @@ std::vector<Value::Array> rungs(const Sweep& sweep) {
         const PointResult& r = row.result;
         if (r.status == RunStatus::waiting) continue;
         all.push_back({sweep.options().rungs[i], sweep.scene().scene.schemes[row.point.scheme].label,
-                       modelInPlace(sweep.scene(), row.point.scheme), r.isDone() ? textOfSteps(sweep, row) : "",
-                       knownNumber(r.cpuSeconds), knownNumber(r.error), knownNumber(r.floor),
-                       knownText(r.floorOf), positiveNumber(r.step), positiveNumber(r.tolerance),
-                       static_cast<double>(r.steps), static_cast<double>(r.cost.evaluations),
-                       knownNumber(timesOfNext(sweep, i)), name(r.status), r.reason});
+                       modelInPlace(sweep.scene(), row.point.scheme),
+                       r.isDone() ? textOfSteps(sweep, row) : "", knownNumber(r.cpuSeconds),
+                       knownNumber(r.error), knownNumber(r.floor), knownText(r.floorOf),
+                       positiveNumber(r.step), positiveNumber(r.tolerance), static_cast<double>(r.steps),
+                       static_cast<double>(r.cost.evaluations), knownNumber(timesOfNext(sweep, i)),
+                       name(r.status), r.reason});
     }
     return all;
 }
