@@ -186,14 +186,15 @@ private slots:
     /// it. Each step ends at its node, and is of its order: the search was repeated a thousand times, and its
     /// end was taken for the node.
     void leavingSlowlyEndsAtTheNode() {
-        const ReadScene read = readScene(R"json({"extremal":1,"model":{"type":"mechanism","gravity":9.81,
+        const ReadScene read =
+            readScene(std::string_view(R"json({"extremal":1,"model":{"type":"mechanism","gravity":9.81,
             "points":{"A":{"at":[0,1],"fixed":true},"B":{"body":"bar","at":[-0.707106781187,0]},
                       "C":{"body":"bar","at":[0.707106781187,0]},"D":{"mass":1,"at":[1.5,0]}},
             "bodies":{"bar":{"mass":1,"inertia":0.1666667,"at":[0.5,0.5],"angle":-0.785398163397448}},
             "pins":{"pin":{"from":"B","to":"A"}},"springs":{"s":{"from":"C","to":"D","stiffness":100}},
             "dampers":{"d":{"from":"C","to":"D","damping":1}},
             "walls":{"floor":{"through":[0.5,-0.5],"normal":[0,1],"restitution":0.5}}},
-            "time":{"end":2},"schemes":[{"label":"G2","step":0.02,"scheme":"galerkin-gauss-2"}]})json");
+            "time":{"end":2},"schemes":[{"label":"G2","step":0.02,"scheme":"galerkin-gauss-2"}]})json"));
         QVERIFY(read.resolved);
         const auto end = [&](int steps) {
             const auto integrator =

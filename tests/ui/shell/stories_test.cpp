@@ -154,12 +154,23 @@ private slots:
         picture("shared");
     }
 
-    /// The cheapest for an error, and a figure with panels for a paper of two columns.
+    /// The cheapest for 1e-8 over fifty starts, and a figure with panels for a paper of two columns.
     void researcher() {
         begin("researcher");
         find("open preset: kepler");
         QVERIFY(waitForResults(*window_));
         picture("kepler");
+        press("studies");
+        choose("Study", "The cheapest scheme");
+        enter(window_->findChild<QLineEdit*>("overCases"), "/initial/q/0=0.35:0.45:50");
+        enter(window_->findChild<QLineEdit*>("wantedError"), "1e-8");
+        press("runStudy");
+        auto* const table = named<QTableWidget>("Results of the study");
+        QVERIFY(table);
+        auto* const run = window_->findChild<QPushButton*>("runStudy");
+        QTRY_VERIFY_WITH_TIMEOUT(table->rowCount() > 0 && run->text() == "Run the study", 120000);
+        picture("cheapest-over-50-starts");
+        press("compare");
         press("figureSheet");
         auto* const sheet = window_->findChild<FigureSheet*>();
         PaperStyle style = sheet->style();
