@@ -12,6 +12,7 @@
 #include "engine/scene/outlook/varied_scene.hpp"
 #include "engine/scene/read/pointer.hpp"
 #include "engine/scene/read/read_parts.hpp"
+#include "engine/scene/read/symmetries_of_scene.hpp"
 #include "engine/scene/write/format.hpp"
 
 namespace extremal {
@@ -155,8 +156,7 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
         const auto known = [&] {
             return system ? availableObservables(*system) : idsOf(observableCatalog());
         };
-        if (system && isLacking(*system, *name) && dependsOnSymmetry(*name) &&
-            (system->isMovedOnlyBy<Mechanical>() || system->isMovedOnlyBy<PhaseMechanics>())) {
+        if (system && isLacking(*system, *name) && dependsOnSymmetry(*name) && mayHaveSymmetries(*system)) {
             reader.warning(pointer,
                            *name + " is not defined for " + scene.model.type +
                                " with these parameters: it has no symmetry; the columns are left out",

@@ -9,6 +9,7 @@
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/read/pointer.hpp"
 #include "engine/scene/read/read_parts.hpp"
+#include "engine/scene/read/symmetries_of_scene.hpp"
 #include "engine/scene/view_choices.hpp"
 #include "engine/scene/write/format.hpp"
 #include "engine/view/axes.hpp"
@@ -147,7 +148,7 @@ bool ViewReader::applies(const View& view) const {
     if (!missing.empty()) {
         const ObservableEntry* observable = findObservable(findView(view.id)->observable);
         if (observable && missing == observable->item.needs && missing == "a symmetry" &&
-            (system->isMovedOnlyBy<Mechanical>() || system->isMovedOnlyBy<PhaseMechanics>())) {
+            mayHaveSymmetries(*system)) {
             reader.warning(
                 pointer,
                 view.id + " stays empty: " + scene.model.type + " with these parameters has no symmetry",
