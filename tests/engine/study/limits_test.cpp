@@ -133,7 +133,7 @@ private slots:
             "dampers":{"d":{"from":"C","to":"D","damping":1}},
             "walls":{"w":{"through":[0,-0.5],"normal":[0,1],"restitution":1}}},
             "time":{"end":2},"schemes":[{"label":"G2","step":0.02,"scheme":"galerkin-gauss-2"}]})json");
-        const LimitsStudy study = done(scene, {{"error.phi_bar", 1e-3}}, 2);
+        const LimitsStudy study = done(scene, {{"error.phi_bar", 1e-3}}, 6);
         for (const StepRange& r : study.rows().front().result.ranges)
             qInfo("%.5f to %.5f: %s %s", r.from, r.to, std::string(name(r.judgement)).c_str(),
                   std::string(name(r.reason)).c_str());

@@ -228,6 +228,7 @@ private slots:
         const System& drawn = *window_->workspace().resolved()->system;
         QVERIFY(drawn.parts.find<Constraint>() && drawn.parts.find<Force>() && drawn.parts.find<Wall>());
         picture("drawn");
+        enter(window_->findChild<QLineEdit*>("field.end"), "2");
         tool(Qt::Key_Escape);
         tool(Qt::Key_Escape);
         auto* const errors = window_->findChild<QPushButton*>("useChoice");
