@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "engine/model/parts/constraint.hpp"
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/scheme.hpp"
@@ -79,8 +80,8 @@ private slots:
         const System plain = exampleOf(*findModel(id.toStdString()));
         System windy = plain;
         windy.parts.set(Wind{});
-        // Spins are those of a Hamiltonian.
-        const std::size_t needs = plain.parts.find<Spins>() ? 2 : 1;
+        // Spins are those of a Hamiltonian, and bodies in space have constraints.
+        const std::size_t needs = plain.parts.find<Spins>() || plain.parts.find<Constraint>() ? 2 : 1;
         QCOMPARE(plain.parts.needs().size(), needs);
         QCOMPARE(windy.parts.needs().size(), needs + 1);
         std::string faults;
