@@ -10,7 +10,7 @@
 /// (g, mu) is symplectic; pi is kept because it is no unknown. Order 2s. Four numbers a stage and no
 /// functions but products (quaternion_kernel.hpp): the motion of the momentum and that of the attitude are
 /// one. A rotation about a fixed axis is not exact here, as it is in the algebra.
-/// Source: Leok 2004, sec. 2 and 3; the first-order form of the body is not in it.
+/// Source: Leok 2004, sec. 3; the first-order form of the body is not in it.
 #pragma once
 
 #include <memory>

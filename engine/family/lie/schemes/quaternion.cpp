@@ -13,7 +13,7 @@ SchemeEntry quaternion() {
               {},
               {},
               "a free rigid body"};
-    e.source = "Leok 2004, sec. 2 and 3";
+    e.source = "Leok 2004, sec. 3";
     e.minDegree = 1;
     e.maxDegree = 8;
     e.make = [](int degree) {
