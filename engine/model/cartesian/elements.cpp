@@ -21,18 +21,13 @@ public:
     Elements read() {
         each("bodies", [&](const ElementReader& r) { readBody(r); });
         each("points", [&](const ElementReader& r) { readPoint(r); });
-        each("rods", [&](const ElementReader& r) {
-            all_.rods.push_back({link(r), r.numberIfGiven("length")});
-        });
+        each("rods", [&](const ElementReader& r) { all_.rods.push_back(rod(r)); });
         each("pins", [&](const ElementReader& r) { all_.pins.push_back(link(r)); });
         each("sliders", [&](const ElementReader& r) {
             all_.sliders.push_back({r.name(), point(r, "point"), r.vector("through"), r.vector("direction")});
         });
-        each("springs", [&](const ElementReader& r) {
-            all_.springs.push_back(
-                {link(r), r.number("stiffness"), r.number("damping"), r.numberIfGiven("length")});
-        });
-        each("dampers", [&](const ElementReader& r) { readDamper(r); });
+        each("springs", [&](const ElementReader& r) { all_.springs.push_back(spring(r)); });
+        each("dampers", [&](const ElementReader& r) { all_.dampers.push_back(damper(r)); });
         each("motors", [&](const ElementReader& r) { readMotor(r); });
         each("walls", [&](const ElementReader& r) { readWall(r); });
         if (problems_.empty()) problems_ = geometryProblems(all_);
@@ -43,7 +38,6 @@ public:
 private:
     std::size_t point(const ElementReader& r, const char* key) { return place("points", r, key); }
     std::optional<std::size_t> body(const ElementReader& r) { return placeIfGiven("bodies", r, "body"); }
-    Link link(const ElementReader& r) { return {r.name(), point(r, "from"), point(r, "to")}; }
 
     void readBody(const ElementReader& r) {
         all_.bodies.push_back({r.name(), r.number("mass"), r.number("inertia"), r.vector("at"),
@@ -55,13 +49,6 @@ private:
                           r.flag("fixed"), body(r)};
         checkPoint(r, made.body.has_value(), made.isFixed);
         all_.points.push_back(std::move(made));
-    }
-    void readDamper(const ElementReader& r) {
-        DamperElement made{r.name(), {}, {}, body(r), r.number("damping")};
-        if (r.has("from")) made.from = point(r, "from");
-        if (r.has("to")) made.to = point(r, "to");
-        checkDamper(r, made.from.has_value(), made.to.has_value(), made.body.has_value());
-        all_.dampers.push_back(std::move(made));
     }
     void readMotor(const ElementReader& r) {
         MotorElement made;
@@ -104,12 +91,7 @@ private:
         made.first = r.vector(isDisc ? "centre" : isBox ? "corner" : "through");
         if (!isDisc) made.second = r.vector(isBox ? "opposite" : "normal");
         if (isDisc && r.has("radius")) made.radius = r.number("radius");
-        for (const std::string& name : r.names("points"))
-            made.points.push_back(placeOf("points", name, r.pointer("points")));
-        if (!r.has("points"))
-            for (std::size_t k = 0; k < all_.points.size(); ++k)
-                if (!all_.points[k].isFixed) made.points.push_back(k);
-        if (made.points.empty()) r.error("points", "there is no point that it could stop", "name one");
+        made.points = stopped(r, all_.points);
         all_.walls.push_back(std::move(made));
     }
 

@@ -17,12 +17,6 @@ void checkPoint(const ElementReader& r, bool isOfBody, bool isFixed) {
         r.error("velocity", isFixed ? "the point is fixed" : "it follows from the body", "leave it out");
 }
 
-void checkDamper(const ElementReader& r, bool hasFrom, bool hasTo, bool hasBody) {
-    if (hasBody == hasFrom)
-        r.error({}, "needs the point that it begins at, or a body", "\"from\": \"A\", or \"body\": \"B\"");
-    if (hasTo && !hasFrom) r.error("from", "is required: a damper has two ends", "or the body alone");
-}
-
 ElementsReading::ElementsReading(const Settings& settings, const std::vector<ElementKind>& kinds)
     : settings_(settings), kinds_(kinds) {
     std::map<std::string, std::string> taken;
@@ -78,6 +72,26 @@ std::optional<std::size_t> ElementsReading::placeIfGiven(const char* kind, const
                                                          const char* key) {
     if (!r.has(key)) return {};
     return place(kind, r, key);
+}
+
+Link ElementsReading::link(const ElementReader& r) {
+    return {r.name(), place("points", r, "from"), place("points", r, "to")};
+}
+
+RodElement ElementsReading::rod(const ElementReader& r) { return {link(r), r.numberIfGiven("length")}; }
+
+SpringElement ElementsReading::spring(const ElementReader& r) {
+    return {link(r), r.number("stiffness"), r.number("damping"), r.numberIfGiven("length")};
+}
+
+DamperElement ElementsReading::damper(const ElementReader& r) {
+    DamperElement made{r.name(), {}, {}, placeIfGiven("bodies", r, "body"), r.number("damping")};
+    made.from = placeIfGiven("points", r, "from");
+    made.to = placeIfGiven("points", r, "to");
+    if (made.body.has_value() == made.from.has_value())
+        r.error({}, "needs the point that it begins at, or a body", "\"from\": \"A\", or \"body\": \"B\"");
+    if (made.to && !made.from) r.error("from", "is required: a damper has two ends", "or the body alone");
+    return made;
 }
 
 }  // namespace extremal::cartesian

@@ -13,13 +13,12 @@
 #include "engine/core/settings.hpp"
 #include "engine/model/cartesian/element_kinds.hpp"
 #include "engine/model/cartesian/element_reader.hpp"
+#include "engine/model/cartesian/elements.hpp"
 
 namespace extremal::cartesian {
 
 /// Says which keys of a point do not go together: one moves by itself, is fixed, or belongs to a body.
 void checkPoint(const ElementReader& r, bool isOfBody, bool isFixed);
-/// The same of a damper, which has a point or a body.
-void checkDamper(const ElementReader& r, bool hasFrom, bool hasTo, bool hasBody);
 
 class ElementsReading {
 protected:
@@ -42,6 +41,24 @@ protected:
     /// The same for a name that stands in a list.
     std::size_t placeOf(const char* kind, const std::string& name, const std::string& pointer);
     std::optional<std::size_t> placeIfGiven(const char* kind, const ElementReader& r, const char* key);
+
+    Link link(const ElementReader& r);
+    RodElement rod(const ElementReader& r);
+    SpringElement spring(const ElementReader& r);
+    /// Of a point, of two, or of a body.
+    DamperElement damper(const ElementReader& r);
+    /// The points that a wall stops: those that it names, or all of these that are not fixed.
+    template <class Point>
+    std::vector<std::size_t> stopped(const ElementReader& r, const std::vector<Point>& points) {
+        std::vector<std::size_t> all;
+        for (const std::string& name : r.names("points"))
+            all.push_back(placeOf("points", name, r.pointer("points")));
+        if (!r.has("points"))
+            for (std::size_t k = 0; k < points.size(); ++k)
+                if (!points[k].isFixed) all.push_back(k);
+        if (all.empty()) r.error("points", "there is no point that it could stop", "name one");
+        return all;
+    }
 
     Parameters parameters_;
     std::vector<Problem> problems_;

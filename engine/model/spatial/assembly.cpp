@@ -17,7 +17,6 @@ namespace {
 
 using cartesian::ElementReader;
 using cartesian::ElementsReading;
-using cartesian::Link;
 
 Place valuesOf(const std::vector<Amount>& amounts) {
     return amounts.empty() ? Place(Place::Zero())
@@ -35,14 +34,9 @@ public:
         each("bodies", [&](const ElementReader& r) { readBody(r); });
         each("points", [&](const ElementReader& r) { readPoint(r); });
         each("joints", [&](const ElementReader& r) { readJoint(r); });
-        each("rods", [&](const ElementReader& r) {
-            all_.rods.push_back({link(r), r.numberIfGiven("length")});
-        });
-        each("springs", [&](const ElementReader& r) {
-            all_.springs.push_back(
-                {link(r), r.number("stiffness"), r.number("damping"), r.numberIfGiven("length")});
-        });
-        each("dampers", [&](const ElementReader& r) { readDamper(r); });
+        each("rods", [&](const ElementReader& r) { all_.rods.push_back(rod(r)); });
+        each("springs", [&](const ElementReader& r) { all_.springs.push_back(spring(r)); });
+        each("dampers", [&](const ElementReader& r) { all_.dampers.push_back(damper(r)); });
         each("motors", [&](const ElementReader& r) { readMotor(r); });
         each("walls", [&](const ElementReader& r) { readWall(r); });
         if (problems_.empty()) problems_ = problemsOf(all_);
@@ -52,9 +46,6 @@ public:
     }
 
 private:
-    Link link(const ElementReader& r) {
-        return {r.name(), place("points", r, "from"), place("points", r, "to")};
-    }
     void readBody(const ElementReader& r) {
         BodyElement made;
         made.name = r.name();
@@ -134,12 +125,6 @@ private:
         r.error(key, "must not be 0", "[0, 0, 1] is upwards");
         return otherwise;
     }
-    void readDamper(const ElementReader& r) {
-        DamperElement made{r.name(), placeIfGiven("points", r, "from"), placeIfGiven("points", r, "to"),
-                           placeIfGiven("bodies", r, "body"), r.number("damping")};
-        cartesian::checkDamper(r, made.from.has_value(), made.to.has_value(), made.body.has_value());
-        all_.dampers.push_back(std::move(made));
-    }
     void readMotor(const ElementReader& r) {
         MotorElement made{r.name(), placeIfGiven("joints", r, "joint"), placeIfGiven("bodies", r, "body"),
                           Place::UnitZ(), r.drive("torque")};
@@ -157,12 +142,7 @@ private:
         made.through = valuesOf(r.amounts("through"));
         made.normal = direction(r, "normal", made.normal);
         made.restitution = r.has("restitution") ? r.number("restitution") : Amount{1, {}};
-        for (const std::string& name : r.names("points"))
-            made.points.push_back(placeOf("points", name, r.pointer("points")));
-        if (!r.has("points"))
-            for (std::size_t k = 0; k < all_.points.size(); ++k)
-                if (!all_.points[k].isFixed) made.points.push_back(k);
-        if (made.points.empty()) r.error("points", "there is no point that it could stop", "name one");
+        made.points = stopped(r, all_.points);
         all_.walls.push_back(std::move(made));
     }
 

@@ -22,6 +22,9 @@
 namespace extremal::spatial {
 
 using cartesian::Amount;
+using cartesian::DamperElement;
+using cartesian::RodElement;
+using cartesian::SpringElement;
 using Place = Eigen::Vector3d;
 using Axes = Eigen::Matrix3d;
 using Amounts = std::array<Amount, 3>;
@@ -59,19 +62,6 @@ struct JointElement {
     std::size_t body = 0;
     std::optional<std::size_t> to;                                             ///< nothing: the ground
     Place at = Place::Zero(), axis = Place::UnitZ(), second = Place::UnitX();  ///< in space, at the start
-    Amount damping;
-};
-/// Between two points.
-struct RodElement : cartesian::Link {
-    std::optional<Amount> length;
-};
-struct SpringElement : cartesian::Link {
-    Amount stiffness, damping;
-    std::optional<Amount> length;
-};
-struct DamperElement {
-    std::string name;
-    std::optional<std::size_t> from, to, body;
     Amount damping;
 };
 struct MotorElement {

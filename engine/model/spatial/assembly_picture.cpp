@@ -179,7 +179,7 @@ private:
 
 }  // namespace
 
-AssemblyPicture pictureOf(Assembly assembly) {
+cartesian::MechanismPicture pictureOf(Assembly assembly) {
     const auto picture = std::make_shared<const AssemblyMade>(std::move(assembly));
     return {[picture](const double* x, Drawing& drawing) { picture->draw(x, drawing); }, picture->firstRod()};
 }

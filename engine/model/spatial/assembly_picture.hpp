@@ -3,19 +3,11 @@
 /// springs and dampers, and the ground that joints and fixed points have.
 #pragma once
 
-#include <cstddef>
-#include <functional>
-
-#include "engine/model/drawing.hpp"
+#include "engine/model/cartesian/elements_picture.hpp"
 #include "engine/model/spatial/assembly.hpp"
 
 namespace extremal::spatial {
 
-struct AssemblyPicture {
-    /// Of states (q, p) in the coordinates of the written Lagrangian.
-    std::function<void(const double* x, Drawing& drawing)> draw;
-    std::size_t firstRod = 0;  ///< place of the first rod among the shapes; the others follow
-};
-AssemblyPicture pictureOf(Assembly assembly);
+cartesian::MechanismPicture pictureOf(Assembly assembly);
 
 }  // namespace extremal::spatial

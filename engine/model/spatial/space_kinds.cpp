@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/spatial/space_kinds.hpp"
 
+#include <algorithm>
+
 #include "engine/core/value.hpp"
 
 namespace extremal::spatial {
@@ -63,21 +65,18 @@ std::vector<FieldInfo> motorFields() {
         leftOut(placeField("axis", "", nullptr, "Of a body: in its axes.")), torque};
 }
 
-std::vector<FieldInfo> wallFields() {
-    FieldInfo points = nameField("points", "Names of the points that it stops; if left out, all that move.");
-    points.type = FieldType::names;
-    FieldInfo restitution =
-        numberField("restitution", "restitution", "", 1,
-                    "The part of the speed that is left: 1 elastic, 0 stays on the wall.");
-    restitution.min = 0;
-    restitution.max = 1;
-    return {placeField("through", "m", origin(), "A point of the plane."),
-            placeField("normal", "", Value(Value::Array{0, 0, 1}), "Towards where motion is possible."),
-            leftOut(points), restitution};
-}
-
 /// The fields of a kind of elements in the plane, which are the same in space.
 std::vector<FieldInfo> asInThePlane(const char* key) { return cartesian::findKind(key)->fields; }
+FieldInfo asInThePlane(const char* kind, std::string_view key) {
+    const std::vector<FieldInfo>& all = cartesian::findKind(kind)->fields;
+    return *std::find_if(all.begin(), all.end(), [&](const FieldInfo& info) { return info.key == key; });
+}
+
+std::vector<FieldInfo> wallFields() {
+    return {placeField("through", "m", origin(), "A point of the plane."),
+            placeField("normal", "", Value(Value::Array{0, 0, 1}), "Towards where motion is possible."),
+            asInThePlane("walls", "points"), asInThePlane("walls", "restitution")};
+}
 
 }  // namespace
 

@@ -40,7 +40,7 @@ System makeMechanism3d(const Settings& settings) {
     std::vector<std::string> rods;
     for (const spatial::RodElement& rod : assembly.rods) rods.push_back(rod.name);
     s.parts.set(CoordinateGroups{spatial::Coordinates(assembly).groups()});
-    const spatial::AssemblyPicture picture = spatial::pictureOf(assembly);
+    const cartesian::MechanismPicture picture = spatial::pictureOf(assembly);
     s.draw = picture.draw;
     s.parts.set(cartesian::drawnRods(rods, picture.firstRod));
     s.isSpatial = true;
