@@ -31,8 +31,8 @@ public:
                                std::to_string(typed::maxCoordinates / 2));
         for (const RodElement& rod : all_.rods) checkRod(rod);
         for (const Link& pin : all_.pins) checkEnds(pin, "/pins/" + pin.name, "pin");
-        for (const SpringElement& s : all_.springs) checkSpring(s);
-        for (const DamperElement& d : all_.dampers) checkDamper(d);
+        for (const SpringElement& s : all_.springs) add(springProblem(all_, s, near()));
+        for (const DamperElement& d : all_.dampers) add(damperProblem(all_, d, near()));
         for (const SliderElement& s : all_.sliders) {
             if (all_.points[s.point].isFixed)
                 add("/sliders/" + s.name + "/point", "the point " + all_.points[s.point].name + " is fixed",
@@ -49,6 +49,10 @@ private:
     void add(std::string pointer, std::string message, std::string hint = {}) {
         problems_.push_back({std::move(pointer), std::move(message), std::move(hint)});
     }
+    void add(std::optional<Problem> problem) {
+        if (problem) problems_.push_back(*std::move(problem));
+    }
+    double near() const { return samePlace * std::max(size_, 1e-300); }
     const std::string& nameOf(std::size_t point) const { return all_.points[point].name; }
 
     bool checkEnds(const Link& link, const std::string& pointer, const std::string& what) {
@@ -59,33 +63,10 @@ private:
     void checkRod(const RodElement& rod) {
         const std::string pointer = "/rods/" + rod.name;
         if (!checkEnds(rod, pointer, "rod")) return;
-        if (!rod.length && lengthAtStart(all_, rod) <= samePlace * std::max(size_, 1e-300))
+        if (!rod.length && lengthAtStart(all_, rod) <= near())
             add(pointer,
                 "has the length 0: " + nameOf(rod.from) + " and " + nameOf(rod.to) + " are at one place",
                 "move one of them, or use a pin");
-    }
-    void checkSpring(const SpringElement& spring) {
-        const std::string pointer = "/springs/" + spring.name;
-        if (!checkEnds(spring, pointer, "spring")) return;
-        const double now = lengthAtStart(all_, spring), rest = spring.length ? spring.length->value : now;
-        if (now <= samePlace * std::max(size_, 1e-300) && rest > 0)
-            add(pointer, "has its ends at one place at the start, where its direction is not known",
-                "move one of them, or \"length\": 0");
-    }
-    void checkDamper(const DamperElement& damper) {
-        const std::string pointer = "/dampers/" + damper.name;
-        if (damper.body) return;
-        if (!damper.to) {
-            if (all_.points[*damper.from].isFixed)
-                add(pointer, "the point " + nameOf(*damper.from) + " is fixed: it damps nothing",
-                    "a point that moves, or a second one");
-            return;
-        }
-        const Link link{damper.name, *damper.from, *damper.to};
-        if (checkEnds(link, pointer, "damper") &&
-            lengthAtStart(all_, link) <= samePlace * std::max(size_, 1e-300))
-            add(pointer, "has its ends at one place at the start, where its direction is not known",
-                "move one of them");
     }
     void checkMotor(const MotorElement& motor) {
         if (!motor.rod) return;

@@ -27,6 +27,33 @@ std::optional<Problem> endsProblem(const All& all, const Link& link, const std::
     return {};
 }
 
+/// The same of a spring; `near`: a length that is nothing beside the mechanism.
+template <class All>
+std::optional<Problem> springProblem(const All& all, const SpringElement& spring, double near) {
+    const std::string pointer = "/springs/" + spring.name;
+    if (auto problem = endsProblem(all, spring, pointer, "spring")) return problem;
+    const double now = lengthAtStart(all, spring), rest = spring.length ? spring.length->value : now;
+    if (!(now <= near && rest > 0)) return {};
+    return Problem{pointer, "has its ends at one place at the start, where its direction is not known",
+                   "move one of them, or \"length\": 0"};
+}
+/// And of a damper.
+template <class All>
+std::optional<Problem> damperProblem(const All& all, const DamperElement& damper, double near) {
+    const std::string pointer = "/dampers/" + damper.name;
+    if (damper.body) return {};
+    const auto& from = all.points[*damper.from];
+    if (!damper.to && from.isFixed)
+        return Problem{pointer, "the point " + from.name + " is fixed: it damps nothing",
+                       "a point that moves, or a second one"};
+    if (!damper.to) return {};
+    const Link link{damper.name, *damper.from, *damper.to};
+    if (auto problem = endsProblem(all, link, pointer, "damper")) return problem;
+    if (!(lengthAtStart(all, link) <= near)) return {};
+    return Problem{pointer, "has its ends at one place at the start, where its direction is not known",
+                   "move one of them"};
+}
+
 /// Empty where all is well.
 std::vector<Problem> geometryProblems(const Elements& elements);
 

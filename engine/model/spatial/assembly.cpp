@@ -198,6 +198,10 @@ Place placeAtStart(const Assembly& assembly, std::size_t point) {
     return b.at + b.attitude * at;
 }
 
+double lengthAtStart(const Assembly& assembly, const cartesian::Link& link) {
+    return (placeAtStart(assembly, link.from) - placeAtStart(assembly, link.to)).norm();
+}
+
 std::array<Place, 2> acrossOf(const Place& axis) {
     int least = 0;
     axis.cwiseAbs().minCoeff(&least);

@@ -96,6 +96,8 @@ Assembly assemblyOf(const Settings& settings);
 
 /// Where a point is at the start.
 Place placeAtStart(const Assembly& assembly, std::size_t point);
+/// The distance of the ends of a link at the start.
+double lengthAtStart(const Assembly& assembly, const cartesian::Link& link);
 /// Two unit vectors normal to a unit vector and to each other, along axes where it is along one.
 std::array<Place, 2> acrossOf(const Place& axis);
 

@@ -40,17 +40,12 @@ public:
                     "another body, or leave it out for the ground");
         for (const RodElement& r : all_.rods) {
             const std::string pointer = "/rods/" + r.name;
-            if (checkEnds(r, pointer, "rod") && !r.length && isShort(r))
+            if (checkEnds(r, pointer, "rod") && !r.length && lengthAtStart(all_, r) <= near())
                 add(pointer, "has the length 0: its ends are at one place",
                     "move one of them, or use a joint");
         }
-        for (const SpringElement& s : all_.springs) {
-            const std::string pointer = "/springs/" + s.name;
-            if (checkEnds(s, pointer, "spring") && isShort(s) && s.length && s.length->value > 0)
-                add(pointer, "has its ends at one place at the start, where its direction is not known",
-                    "move one of them, or \"length\": 0");
-        }
-        for (const DamperElement& d : all_.dampers) checkDamper(d);
+        for (const SpringElement& s : all_.springs) add(cartesian::springProblem(all_, s, near()));
+        for (const DamperElement& d : all_.dampers) add(cartesian::damperProblem(all_, d, near()));
         for (const MotorElement& m : all_.motors)
             if (m.joint && !hasAxis(all_.joints[*m.joint]))
                 add("/motors/" + m.name + "/joint",
@@ -67,6 +62,10 @@ private:
     void add(std::string pointer, std::string message, std::string hint = {}) {
         problems_.push_back({std::move(pointer), std::move(message), std::move(hint)});
     }
+    void add(std::optional<Problem> problem) {
+        if (problem) problems_.push_back(*std::move(problem));
+    }
+    double near() const { return nothing * std::max(size_, 1e-300); }
     void checkBody(BodyElement& b) {
         const std::string pointer = "/bodies/" + b.name + "/inertia";
         const Axes spread = b.spread();
@@ -95,24 +94,6 @@ private:
         std::optional<Problem> problem = cartesian::endsProblem(all_, link, pointer, what);
         if (problem) problems_.push_back(*std::move(problem));
         return !problem;
-    }
-    bool isShort(const cartesian::Link& link) const {
-        return (placeAtStart(all_, link.from) - placeAtStart(all_, link.to)).norm() <=
-               nothing * std::max(size_, 1e-300);
-    }
-    void checkDamper(const DamperElement& d) {
-        const std::string pointer = "/dampers/" + d.name;
-        if (d.body) return;
-        if (!d.to) {
-            if (all_.points[*d.from].isFixed)
-                add(pointer, "the point " + all_.points[*d.from].name + " is fixed: it damps nothing",
-                    "a point that moves, or a second one");
-            return;
-        }
-        const cartesian::Link link{d.name, *d.from, *d.to};
-        if (checkEnds(link, pointer, "damper") && isShort(link))
-            add(pointer, "has its ends at one place at the start, where its direction is not known",
-                "move one of them");
     }
     void checkWall(const WallElement& w) {
         for (const std::size_t k : w.points) {

@@ -148,8 +148,7 @@ private:
         return subtracted(points_[link.to].place, points_[link.from].place);
     }
     Amount lengthOf(const cartesian::Link& link, const std::optional<Amount>& given) const {
-        return given.value_or(
-            Amount{(placeAtStart(all_, link.from) - placeAtStart(all_, link.to)).norm(), {}});
+        return given.value_or(Amount{lengthAtStart(all_, link), {}});
     }
     /// The square of the rate of the length of a link.
     std::string alongRate(const cartesian::Link& link) const {
