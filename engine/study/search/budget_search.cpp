@@ -17,8 +17,10 @@ namespace {
 /// Runs of one candidate.
 class OneBudget {
 public:
-    OneBudget(const BudgetSearch& search, const StudyPoint& own, const std::stop_token& stop)
+    OneBudget(const BudgetSearch& search, ProcessorWatch& watch, const StudyPoint& own,
+              const std::stop_token& stop)
         : search_(search),
+          watch_(watch),
           own_(own),
           scheme_(search.scene.schemes[own.scheme]),
           length_(timeSpan(search.scene.scene).length()),
@@ -35,14 +37,13 @@ public:
 private:
     /// n steps, or a tolerance of 1/n; its cost in budgets, or nothing where it failed.
     std::optional<double> run(double n) {
-        constexpr double cutOff = 3, least = 2e-5;
+        constexpr double least = 2e-5;
         StudyPoint point = own_;
         if (scheme_.isAdaptive())
             point.tolerance = 1 / n;
         else if (!hasStepOfItsSpace(search_.scene, scheme_))
             point.step = length_ / n;
-        CostLimit limit;
-        limit.seconds = cutOff * search_.budget + least;
+        const CostLimit limit{.seconds = cutOff * search_.budget + least, .watch = &watch_};
         PointResult result =
             runPoint(search_.scene, point, search_.metrics, search_.reference(own_), 0, limit, stop_);
         if (result.isCutOff) {
@@ -92,7 +93,8 @@ private:
         for (int i = 0; i < 2; ++i) {
             StudyPoint point = own_;
             point.step = length_ / n;
-            const StepCost cost = tryPoint(search_.scene, point, few, stop_);
+            const StepCost cost = tryPoint(search_.scene, point, few,
+                                           {.seconds = cutOff * search_.budget, .watch = &watch_}, stop_);
             if (!(cost.seconds > 0)) return n;
             n = std::clamp(std::floor(search_.budget / cost.seconds), 2.0, 1e7);
         }
@@ -131,7 +133,10 @@ private:
         }
     }
 
+    static constexpr double cutOff = 3;  ///< budgets that a run may cost until it is given up
+
     const BudgetSearch& search_;
+    ProcessorWatch& watch_;
     StudyPoint own_;
     const ResolvedScheme& scheme_;
     double length_;
@@ -158,6 +163,7 @@ std::vector<PointResult> bestWithin(const BudgetSearch& search, const std::stop_
     constexpr std::size_t timed = 3;
     constexpr double longest = 0.1;
     const double begin = threadSeconds();
+    ProcessorWatch watch;
     std::vector<PointResult> results;
     for (const StudyPoint& own : search.candidates) {
         if (stop.stop_requested()) return results;
@@ -168,7 +174,7 @@ std::vector<PointResult> bestWithin(const BudgetSearch& search, const std::stop_
             results.push_back(std::move(late));
             continue;
         }
-        results.push_back(OneBudget(search, own, stop).find());
+        results.push_back(OneBudget(search, watch, own, stop).find());
         if (results.back().status == RunStatus::waiting) results.back().status = RunStatus::failed;
     }
     rank(results);

@@ -77,21 +77,26 @@ bool CandidateSearch::isSaturated(const PointResult& result) const {
 void CandidateSearch::findStart(const StudyPoint& own, const ResolvedScheme& scheme, RaceEntry& entry) {
     constexpr long long steps = 3;
     constexpr int enough = 3;
+    constexpr double part = 0.01, untimed = 1;
+    const double longest = std::isfinite(seconds_) ? part * seconds_ : untimed;
     if (scheme.isAdaptive()) {
         // Its first steps tell nothing of the others, which may be much longer.
         entry.firstN = 10;
         return;
     }
     const bool isPressed = spent_ > seconds_ / 4;
-    double least = HUGE_VAL;
+    constexpr double tooMuchWork = 1e6;
+    double least = HUGE_VAL, cutOff = 0;
     constexpr std::size_t usual = 3;
     for (std::size_t i = 0; i < (isPressed ? std::size(trialLengths) : usual); ++i) {
         if (i >= usual && std::isfinite(least)) break;
         if (isPressed && useless_[i] >= enough) continue;
         const double n = trialLengths[i];
-        const StepCost cost = tryPoint(scene_, pointAt(own, scheme, n), steps, stop_);
+        const StepCost cost =
+            tryPoint(scene_, pointAt(own, scheme, n), steps, {.seconds = longest, .watch = &watch_}, stop_);
         const double whole = n * (isCounted_ ? cost.work : cost.seconds);
         useless_[i] = std::isfinite(whole) ? 0 : useless_[i] + 1;
+        if (cost.isCutOff) cutOff = isCounted_ ? tooMuchWork : longest;
         if (std::isfinite(whole)) entry.trials.emplace_back(n, whole);
         if (whole < least) {
             least = whole;
@@ -99,7 +104,7 @@ void CandidateSearch::findStart(const StudyPoint& own, const ResolvedScheme& sch
         }
         if (std::isfinite(least) && whole > 3 * least) break;  // as long as steps cost the same, n decides
     }
-    entry.firstCost = std::isfinite(least) ? least : 0;
+    entry.firstCost = std::isfinite(least) ? least : cutOff;
 }
 
 RaceEntry CandidateSearch::entryFor(const StudyPoint& own, const ResolvedScheme& scheme) {
@@ -122,13 +127,16 @@ RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& sche
     if (known == known_.end() || (known->second.result.isCutOff && known->second.cost < job.limit)) {
         // Before anyone has reached the wish, a run that goes wrong must not take all the time there is.
         constexpr double tooLong = 16, fewSeconds = 1e-3, littleWork = 1e4;
-        CostLimit limit;
+        CostLimit limit{.watch = &watch_};
         (isCounted_ ? limit.work : limit.seconds) =
             std::min(job.limit, tooLong * job.predictedCost + (isCounted_ ? littleWork : fewSeconds));
-        limit.seconds = std::min(limit.seconds, std::max(seconds_ - spent_, fewSeconds));
+        const double left = std::isfinite(seconds_) ? std::max(seconds_ - spent_, fewSeconds) : longestStep;
+        limit.seconds = std::min(limit.seconds, left);
         Known made;
         made.result = runCases(own, pointAt(own, scheme, job.n), 0, limit, wishes);
         made.cost = costOf(own, made.result);
+        // A step that did not end is counted nowhere.
+        if (made.result.isCutOff) made.cost = std::max(made.cost, isCounted_ ? limit.work : limit.seconds);
         ++runs_;
         known = known_.insert_or_assign(key, std::move(made)).first;
     }
@@ -148,7 +156,7 @@ PointResult CandidateSearch::runCases(const StudyPoint& own, const StudyPoint& a
                                       const CostLimit& limit, std::span<const double> wishes) {
     if (cases_.empty()) return runPoint(scene_, at, metrics_, references_(own), repeat, limit, stop_);
     const auto count = static_cast<double>(cases_.size());
-    CostLimit left{limit.seconds * count, limit.work * count};
+    CostLimit left{limit.seconds * count, limit.work * count, limit.watch};
     std::vector<PointResult> results;
     for (std::size_t i = 0; i < cases_.size() && !stop_.stop_requested(); ++i) {
         const SearchCase& each = cases_[i];
@@ -353,13 +361,18 @@ void CandidateSearch::time(std::vector<PointResult>& results, int repeat) {
             timeOne(reached[place], results[reached[place]], repeat);
 }
 
-/// The scene's own, then what is cheap to try: codes without equations to solve, low degrees.
+/// The scene's own, then what is cheap to try: codes without equations to solve, low degrees. Compositions
+/// and steps that follow a monitor come last.
 std::vector<std::size_t> CandidateSearch::orderOfTrials() const {
     std::vector<std::size_t> order(schemes_.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     const auto rank = [&](std::size_t i) {
         const ResolvedScheme& scheme = schemeOf(i);
         if (schemes_[i].isOfScene || (knobs_.isCells && cellsOf(scheme, scene_) > 0)) return -1;
+        // What has no second derivative of its own, and what takes several steps in place of one.
+        constexpr int composed = 20, monitored = 40;
+        if (scheme.isMonitored()) return monitored;
+        if (scheme.isComposed()) return composed + scheme.claims.order;
         return scheme.family ? 1 + std::max(scheme.claims.order, 0) : 0;
     };
     std::stable_sort(order.begin(), order.end(),

@@ -133,8 +133,10 @@ private:
     bool isCounted_;
     double seconds_, spent_ = 0, length_;
     std::stop_token stop_;
+    ProcessorWatch watch_;
     int runs_ = 0;
     std::vector<std::optional<RaceEntry>> entries_;  ///< with where each begins, once it is known
+    static constexpr double longestStep = 20;  ///< CPU seconds of a run that is counted and not timed
     static constexpr double trialLengths[] = {6, 24, 96, 384, 1536};  ///< of the whole motion, steps
     int useless_[std::size(trialLengths)] = {};  ///< schemes in a row that have no solution there
     std::map<Key, Known> known_;

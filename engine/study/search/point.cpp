@@ -114,17 +114,17 @@ double workOf(const Cost& cost, long long steps, int nodes) {
 
 class PointRun {
 public:
-    PointRun(const ResolvedScene& scene, const StudyPoint& point, const std::stop_token& stop)
+    PointRun(const ResolvedScene& scene, const StudyPoint& point)
         : scheme_(withStep(schemeOf(scene, point), point.step, point.tolerance)),
           system_(*systemOf(scene, scheme_)),
           step_(point.step),
           start_(schemeStart(scene, scheme_, step_)),
           grid_(marchGrid(scene.scene, scheme_, step_)),
           integrator_(scheme_.make(system_, step_, start_)),
-          reduction_(point.reduction),
-          stop_(stop) {}
+          reduction_(point.reduction) {}
 
-    PointResult measure(std::span<const Metric> metrics, ExactSolution reference, const CostLimit& limit) {
+    PointResult measure(std::span<const Metric> metrics, ExactSolution reference, const CostLimit& limit,
+                        const std::stop_token& stop) {
         PointResult result;
         const auto integrator = integrator_->clone();
         const bool hasReference = static_cast<bool>(reference);
@@ -149,8 +149,8 @@ public:
         };
         const MarchSink sink{see, false, measured.readsQuantities(), soundNodes};
         State state = start_;
-        warmUp(*integrator, state, grid_, stop_);
-        MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop_, &check);
+        warmUp(*integrator, state, grid_, stop);
+        MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop, &check);
         if (report.outcome == Outcome::converged && check.hasShifted()) report.outcome = Outcome::lost;
         // At the start alone there is nothing of the scheme to measure.
         if (state.node > start_.node) {
@@ -174,15 +174,15 @@ public:
         return result;
     }
 
-    StepCost tryOut(long long steps) const {
+    StepCost tryOut(long long steps, const std::stop_token& stop) const {
         MarchGrid grid = grid_;
         const bool isFixed = scheme_.isFixed();
         if (isFixed) grid.steps = std::min(grid.steps, steps);
         grid.budget = steps;
         const auto integrator = integrator_->clone();
         State state = start_;
-        warmUp(*integrator, state, grid, stop_);
-        const MarchReport report = march(*integrator, state, grid, {}, stop_);
+        warmUp(*integrator, state, grid, stop);
+        const MarchReport report = march(*integrator, state, grid, {}, stop);
         StepCost cost;
         const bool isUsable = report.outcome == Outcome::converged || report.outcome == Outcome::stepBudget;
         if (!isUsable || state.node == 0) return cost;
@@ -195,9 +195,8 @@ public:
     }
 
     /// `first`: what the measured run took, observers apart.
-    void time(int repeat, double first, PointResult& result) const {
-        const Timing timing =
-            timeRuns(*integrator_, start_, grid_, first, {repeat, shortest, longest}, stop_);
+    void time(int repeat, double first, PointResult& result, const std::stop_token& stop) const {
+        const Timing timing = timeRuns(*integrator_, start_, grid_, first, {repeat, shortest, longest}, stop);
         if (std::isnan(timing.seconds)) return;
         result.cpuSeconds = timing.seconds;
         result.cpuSpread = timing.spread;
@@ -217,8 +216,17 @@ private:
     MarchGrid grid_;
     std::unique_ptr<Integrator> integrator_;  ///< as it is before a run: each run has a copy
     Reduction reduction_;
-    std::stop_token stop_;
 };
+
+/// work(stop), within the limit's time where that is watched. True: the time was over.
+template <class Work>
+bool watched(const CostLimit& limit, const std::stop_token& stop, Work&& work) {
+    // What the work itself looks at comes first, and its warming up is not counted there.
+    constexpr double grace = 5e-3;
+    if (limit.watch) return limit.watch->run(limit.seconds + grace, stop, std::forward<Work>(work));
+    work(stop);
+    return false;
+}
 
 }  // namespace
 
@@ -242,9 +250,15 @@ PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, std::s
                      const std::stop_token& stop) {
     PointResult result;
     try {
-        PointRun run(scene, point, stop);
-        result = run.measure(metrics, std::move(reference), limit);
-        if (result.isDone() && repeat > 0) run.time(repeat, result.cpuSeconds, result);
+        PointRun run(scene, point);
+        const bool isTimeOver = watched(limit, stop, [&](const std::stop_token& inner) {
+            result = run.measure(metrics, std::move(reference), limit, inner);
+        });
+        if (isTimeOver && result.status == RunStatus::partial) {
+            result.status = RunStatus::failed;
+            result.isCutOff = true;
+        }
+        if (result.isDone() && repeat > 0) run.time(repeat, result.cpuSeconds, result, stop);
     } catch (const InvalidScene& e) {
         result.status = RunStatus::failed;
         result.cause = Outcome::refused;
@@ -256,12 +270,17 @@ PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, std::s
 }
 
 StepCost tryPoint(const ResolvedScene& scene, const StudyPoint& point, long long steps,
-                  const std::stop_token& stop) {
+                  const CostLimit& limit, const std::stop_token& stop) {
+    StepCost cost;
     try {
-        return PointRun(scene, point, stop).tryOut(steps);
+        const PointRun run(scene, point);
+        const bool isTimeOver =
+            watched(limit, stop, [&](const std::stop_token& inner) { cost = run.tryOut(steps, inner); });
+        cost.isCutOff = isTimeOver && std::isnan(cost.seconds);
     } catch (const InvalidScene&) {
         return {};
     }
+    return cost;
 }
 
 }  // namespace extremal

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/core/outcome.hpp"
+#include "engine/core/processor_watch.hpp"
 #include "engine/model/exact_solution.hpp"
 #include "engine/run/comparison.hpp"
 #include "engine/scene/resolve.hpp"
@@ -67,12 +68,15 @@ struct PointResult {
 struct CostLimit {
     double seconds = std::numeric_limits<double>::infinity();
     double work = std::numeric_limits<double>::infinity();  ///< as workOf()
+    /// Cuts it off in the middle of a step as well; null: after some steps only.
+    ProcessorWatch* watch = nullptr;
 };
 
 /// What a step costs at the beginning of a run, from a few of them; unknown where one of them fails.
 struct StepCost {
     double seconds = PointResult::unknown, work = PointResult::unknown;
-    double steps = 0;  ///< that the whole run takes, if all are as long
+    double steps = 0;       ///< that the whole run takes, if all are as long
+    bool isCutOff = false;  ///< there was not enough time for them
 };
 
 /// Evaluations, or where none are counted, steps times nodes: a cost that is the same on every machine.
@@ -90,8 +94,8 @@ PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, const 
 PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, std::span<const Metric> metrics,
                      ExactSolution reference, int repeat, const CostLimit& limit,
                      const std::stop_token& stop);
-/// Of at most so many steps.
+/// Of at most so many steps, which take at most `limit.seconds`.
 StepCost tryPoint(const ResolvedScene& scene, const StudyPoint& point, long long steps,
-                  const std::stop_token& stop);
+                  const CostLimit& limit, const std::stop_token& stop);
 
 }  // namespace extremal

@@ -132,8 +132,7 @@ private:
         StudyPoint point;
         point.scheme = scheme_;
         point.step = length_ / static_cast<double>(n);
-        CostLimit limit;
-        limit.seconds = roomFor(n);
+        const CostLimit limit{.seconds = roomFor(n), .watch = &watch_};
         const double begin = spent();
         const PointResult result =
             runPoint(scene_, point, search_.metrics,
@@ -273,6 +272,7 @@ private:
     double length_, begin_;
     double costPerStep_ = 0;  ///< of the last run that came to its end
     std::stop_token stop_;
+    ProcessorWatch watch_;
     bool isTimeUpBelow_ = false, isTimeUpAbove_ = false;
     std::map<long long, Known> known_;  ///< by the number of steps
 };

@@ -181,6 +181,28 @@ private slots:
             }
         QVERIFY(isFloorNamed);
     }
+    /// Of thirty-six unknowns a step without a second derivative takes minutes: it must not take all the time
+    /// that there is for the others.
+    void aStepThatDoesNotEndIsGivenUp() {
+        const ResolvedScene scene = *readScene(std::string(R"({"extremal":1,"model":
+            {"type":"outer-solar-system"},"time":{"end":20000},
+            "schemes":[{"label":"Verlet","step":100,"baseline":"stormer-verlet"}]})"))
+                                         .resolved;
+        SweepOptions options;
+        options.wantedError = 1e-3;
+        options.hasAllCandidates = true;
+        options.repeat = 1;
+        options.searchSeconds = 20;  // enough for a slow machine; each trial has a hundredth of it
+        Sweep search(scene, options);
+        search.run({}, {}, {});
+        int reached = 0;
+        for (const SweepRow& row : search.rows()) {
+            reached += row.result.isDone();
+            if (search.scene().schemes[row.point.scheme].spec.label == "time-transformed")
+                QVERIFY2(!row.result.isDone(), row.result.reason.c_str());
+        }
+        QVERIFY(reached >= 1);
+    }
     /// Counted costs are the same every time: so are all answers.
     void aSearchByCountsIsRepeated() {
         const auto found = [] {

@@ -117,6 +117,9 @@ private slots:
         const std::vector<StepRange> sets = usable(study);
         QVERIFY(sets.size() >= 2);
         QVERIFY(sets.back().to > 1 && sets.front().to < 0.02);
+        for (const StepRange& r : study.rows().front().result.ranges)
+            if (r.to > 0.02 && r.from < 0.07)
+                QVERIFY(!r.isUsable() && r.reason == StepLimit::solver && r.from > sets.front().to);
         QVERIFY(std::abs(study.ground().omegaHigh / 1000 - 1) < 0.02);
         const std::vector<StepRange> verlet = usable(study, 1);
         qInfo("SV to %.5f, then %s", verlet.back().to, std::string(name(verlet.back().above)).c_str());

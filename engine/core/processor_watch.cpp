@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/processor_watch.hpp"
+
+#include <pthread.h>
+
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+
+#include "engine/core/thread_clock.hpp"
+
+namespace extremal {
+
+ProcessorWatch::Armed::Armed(ProcessorWatch& watch, double seconds, const std::stop_source& source)
+    : watch_(watch) {
+    clockid_t clock{};
+    if (!std::isfinite(seconds) || pthread_getcpuclockid(pthread_self(), &clock) != 0) return;
+    const std::scoped_lock lock(watch_.mutex_);
+    watch_.limit_ = Limit{clock, threadSeconds() + seconds, source};
+    if (!watch_.thread_.joinable())
+        watch_.thread_ = std::jthread([&watch](const std::stop_token& end) { watch.look(end); });
+}
+
+ProcessorWatch::Armed::~Armed() {
+    const std::scoped_lock lock(watch_.mutex_);
+    watch_.limit_.reset();
+}
+
+void ProcessorWatch::look(const std::stop_token& end) {
+    using namespace std::chrono_literals;
+    std::condition_variable_any isEnded;
+    std::unique_lock lock(mutex_);
+    while (!end.stop_requested()) {
+        // Nobody notifies: it wakes up to look, and at the end at once.
+        isEnded.wait_for(lock, end, 3ms, [] { return false; });
+        if (limit_ && secondsOf(limit_->clock) > limit_->end) limit_->source.request_stop();
+    }
+}
+
+}  // namespace extremal
