@@ -198,15 +198,16 @@ struct Pair {
     Distance distance;
 };
 
-/// The nearest of all pairs.
-std::optional<Pair> nearestOf(const Members& members, const std::vector<const Member*>& all) {
+/// The nearest of all pairs; where the user has chosen the reference, which is the first of all, of those
+/// that it is in.
+std::optional<Pair> nearestOf(const Members& members, const std::vector<const Member*>& all, bool isGiven) {
     constexpr double muchSmaller = 0.1;
     std::optional<Pair> best;
-    for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t i = 0; i < (isGiven ? 1 : all.size()); ++i)
         for (std::size_t k = i + 1; k < all.size(); ++k) {
             Distance d = members.between(*all[i], *all[k]);
             if (best && !(d.end() < best->distance.end())) continue;
-            const bool isSecondBetter = all[k]->energyError < muchSmaller * all[i]->energyError;
+            const bool isSecondBetter = !isGiven && all[k]->energyError < muchSmaller * all[i]->energyError;
             best = isSecondBetter ? Pair{all[k], all[i], std::move(d)} : Pair{all[i], all[k], std::move(d)};
         }
     return best;
@@ -253,7 +254,7 @@ Confirmation confirmation(const ReferencePair& pair, const ResolvedScene& scene,
 }
 
 void confirmReference(Reference& reference, const ResolvedScene& scene, const std::stop_token& stop) {
-    constexpr double doubtful = 1e-6, coarse = 1e-10, finest = 1e-15;
+    constexpr double doubtful = 1e-6, coarse = 1e-12, finest = 1e-15;
     const System& system = *scene.system;
     const bool isForwards = scene.scene.end.value > scene.scene.start.value;
     if (!system.hasCoordinates() || system.error.evaluate || !isForwards) return;
@@ -261,7 +262,8 @@ void confirmReference(Reference& reference, const ResolvedScene& scene, const st
     constexpr double mostRadians = 3e5;
     const double length = scene.scene.end.value - scene.scene.start.value;
     if (highestFrequency(system, scene.initial) * length > mostRadians) return;
-    const bool isMissing = !reference.make;
+    const bool isMissing = !reference.make, isGiven = reference.info.type == "scheme";
+    if (isMissing && isGiven) return;
     const ForcePulses pulses = forcePulses(system, scene.initial, scene.scene.end.value,
                                            isMissing ? ExactSolution{} : reference.make());
     Members members(scene, stop);
@@ -272,7 +274,7 @@ void confirmReference(Reference& reference, const ResolvedScene& scene, const st
     std::vector<const Member*> all;
     if (!isMissing) all.push_back(&a);
     if (b) all.push_back(&*b);
-    std::optional<Pair> best = nearestOf(members, all);
+    std::optional<Pair> best = nearestOf(members, all, isGiven);
     // Most of the distance is the error of B where that is not round-off yet.
     std::optional<Member> finer;
     if (best && b && !isMissing && Confirmation::safety * best->distance.end() > coarse * members.size() &&
@@ -282,7 +284,7 @@ void confirmReference(Reference& reference, const ResolvedScene& scene, const st
             finer && std::isfinite(finer->energyError) && std::isfinite(finer->states.back());
         if (isThere && members.between(a, *finer).end() < best->distance.end()) {
             all.back() = &*finer;
-            best = nearestOf(members, all);
+            best = nearestOf(members, all, isGiven);
         }
     }
     std::optional<Member> c;
@@ -290,7 +292,7 @@ void confirmReference(Reference& reference, const ResolvedScene& scene, const st
     if (b && isDoubtful && !stop.stop_requested()) {
         c = members.controlled({"bulirsch-stoer"}, pulses.ends);
         if (c) all.push_back(&*c);
-        best = nearestOf(members, all);
+        best = nearestOf(members, all, isGiven);
     }
     if (stop.stop_requested()) return;
     reference.info.pulses = pulses.pulses;

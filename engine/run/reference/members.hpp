@@ -45,9 +45,9 @@ struct ReferencePair {
 /// In any number that the columns of the error give.
 Confirmation confirmation(const ReferencePair& pair, const ResolvedScene& scene, const DistanceOf& distance);
 
-/// Of a system with coordinates: confirms a computed reference, or takes a better one in its place. Fills
-/// confirmedBy, agreed, bound, horizon and the caution of its info; where the bound is above a millionth of
-/// the motion the estimated error as well.
+/// Of a system with coordinates: confirms a computed reference, or takes a better one in its place; one that
+/// is a scheme of the user's is confirmed and stays. Fills confirmedBy, agreed, bound, horizon and the
+/// caution of its info; where the bound is above a millionth of the motion the estimated error as well.
 void confirmReference(Reference& reference, const ResolvedScene& scene, const std::stop_token& stop);
 
 }  // namespace extremal

@@ -256,7 +256,11 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     using Kind = ReferenceSpec::Kind;
     const Kind kind = scene.reference.kind;
     if (kind == Kind::none) return {};
-    if (kind == Kind::scheme) return fromScheme(resolved, stop);
+    if (kind == Kind::scheme) {
+        Reference reference = fromScheme(resolved, stop);
+        confirmReference(reference, resolved, stop);
+        return reference;
+    }
     if (kind == Kind::file) return readReference(scene.reference.path, system);
     const Family* const onMeshes = system.at ? familyOnMeshes(system) : nullptr;
     if (exactSolution(scene, system, initial)) {

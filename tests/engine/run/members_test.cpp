@@ -119,6 +119,20 @@ private slots:
         QVERIFY(broken(made()) <= 1);
         QVERIFY(saidOf(made()).isTrueOrMarked());
     }
+    /// Of a pulse that both step over, two step sizes of one method agree to round-off and are wrong by .85:
+    /// they are no pair. A scheme that the user takes for the reference is confirmed by another as well.
+    void twoStepSizesOfOneMethodAreNoPair() {
+        const Case c = pulse(1e-5);
+        std::string text = c.scene;
+        text.insert(text.find("\"initial\""), R"("reference":{"type":"scheme","scheme":)"
+                                              R"({"step":0.01,"scheme":"galerkin-gauss-6"}},)");
+        const ReferenceInfo info = makeReference(resolved(text), {}).info;
+        QCOMPARE(info.type, std::string("scheme"));
+        QVERIFY(info.confirmedBy == "rk8pd" || info.confirmedBy == "bulirsch-stoer");
+        QVERIFY2(info.bound > 0.5 && info.estimatedError >= info.bound, info.caution.c_str());
+        QVERIFY(info.horizon > 3.3 && info.horizon < 3.5);
+        QVERIFY(info.caution.find("errors are judged to there") != std::string::npos);
+    }
     /// Two step sizes of collocation err to the same side; the other codes do not.
     void anOrbitThatGrazesItsStarIsKnownTo1e3() {
         const Reference reference = makeReference(resolved(grazing().scene), {});
