@@ -107,7 +107,10 @@ void addPage(CLI::App& app, Arguments& arguments) {
 
 /// What is wanted of a search, and what it searches.
 void addSearch(CLI::App& verb, StudyOptions& study) {
-    verb.add_option("--error", study.error, "for cheapest: the error to be reached")->type_name("E");
+    verb.add_option("--error", study.error,
+                    "for cheapest, limits and extremes: the error to be reached, a wish for --metric; for "
+                    "needs: a rung of the ladder")
+        ->type_name("E");
     verb.add_option("--wish", study.wishes,
                     "for cheapest, limits and extremes: a metric and the value it stays below; repeatable, "
                     "all must hold; for needs: a rung of the ladder, 0.1 to 1e-12 by default")

@@ -38,6 +38,14 @@ Wish parseWish(const std::string& text, bool isRung) {
     return {text.substr(0, equals), *value};
 }
 
+/// A wish for the metric of the study.
+double usableError(const StudyRequest& study) {
+    if (!(study.error > 0 && std::isfinite(study.error)))
+        throw InvalidScene("--error", "must be positive and finite, got " + formatNumber(study.error),
+                           "for example 1e-6");
+    return study.error;
+}
+
 /// "1", "1s", "500ms", "20us"; in seconds.
 double parseSeconds(const std::string& text, const std::string& option) {
     std::string number = text;
@@ -64,7 +72,7 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
                hasWishes = entry.over == Over::wishes || entry.over == Over::usableSteps || isChanged;
     const auto refuse = [&](bool isGiven, Over over, std::string_view option, const char* whose) {
         bool isOwn = entry.over == over;
-        if (option == "--wish") isOwn = isOwn || hasWishes;
+        if (option == "--wish" || option == "--error") isOwn = isOwn || hasWishes;
         if (option == "--candidates") isOwn = isOwn || entry.over == Over::wishes;
         if (option == "--search-time")
             isOwn = isOwn || entry.over == Over::wishes || entry.over == Over::usableSteps;
@@ -117,8 +125,9 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
 
 Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadder, unsigned threads) {
     SweepOptions options;
-    options.wantedError = study.error;
+    options.wantedError = isLadder ? 0 : study.error;
     options.metric = study.metric;
+    if (isLadder && study.error != 0) options.wishes.push_back({"", usableError(study)});
     for (const std::string& wish : study.wishes) options.wishes.push_back(parseWish(wish, isLadder));
     for (const Wish& wish : options.wishes)
         if (isLadder && !wish.metric.empty() && wish.metric != study.metric)
@@ -136,7 +145,7 @@ Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadd
         for (const Wish& wish : options.wishes) options.rungs.push_back(wish.value);
         std::sort(options.rungs.begin(), options.rungs.end(), std::greater<>());
         options.wishes.clear();
-        if (study.wishes.empty()) options.rungs = usualRungs();
+        if (options.rungs.empty()) options.rungs = usualRungs();
     }
     if (std::string budget = study.budget; !budget.empty()) {
         options.isPerTime = budget.ends_with("/s");
@@ -165,6 +174,7 @@ Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadd
 /// "METRIC=VALUE", all of which must hold; the metric alone is a wish of a thousandth of its size.
 std::vector<Wish> wishesOf(const StudyRequest& study) {
     std::vector<Wish> all;
+    if (study.error != 0) all.push_back({study.metric, usableError(study)});
     for (const std::string& text : study.wishes) {
         all.push_back(parseWish(text, false));
         if (!(all.back().value > 0))

@@ -48,8 +48,8 @@ QString text(std::string_view view) {
 
 /// Options that the study of extremes has with a scene.
 const QStringList& extremesOfScene() {
-    static const QStringList all{"--set",  "--add",    "--trust", "--x",   "--y",
-                                 "--wish", "--metric", "--final", "--only"};
+    static const QStringList all{"--set",   "--add",  "--trust",  "--x",     "--y",
+                                 "--error", "--wish", "--metric", "--final", "--only"};
     return all;
 }
 
@@ -96,7 +96,8 @@ Sample sampleOf(const QString& verb, const QString& option) {
         return {words("--view energy --out p.png"), words("--view energy --out p.png --dpi 100")};
     if (option == "--frames") return {words("--out p.html --frames 2"), words("--out p.html --frames 3")};
     if (option == "--measure") return {{"--measure"}, {"--no-measure"}};
-    if (option == "--error") return replaced("1e-2", "1e-3");
+    if (option == "--error" && verb == "study cheapest") return replaced("1e-2", "1e-3");
+    if (option == "--error" && verb != "study extremes") return added(words("--error 1e-5"));
     if (verb == "study needs" && option == "--wish") return replaced("1e-2", "1e-3");
     if (verb == "study limits" && option == "--wish") return replaced("energy=1e-2", "energy=1e-3");
     if (verb == "study limits" && option == "--search-time") return replaced("100ms", "nonsense");
@@ -108,6 +109,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
         if (option == "--set") return also("--set /time/end=1");
         if (option == "--y") return also("--y /time/end=1:2:2");
         if (option == "--wish") return also("--wish energy=10");
+        if (option == "--error") return also("--error 10");
         if (option == "--only") return also("--only B");
         if (option == "--final") return also("--final");
         if (option == "--add") return also("--add nowhere");
@@ -426,7 +428,10 @@ private slots:
         row("study convergence s.json --points 3 --out d", "--points");
         row("study convergence s.json --from nan --to 0.1 --out d", "--from");
         row("study convergence s.json --steps 0.1,inf --out d", "--steps");
-        row("study cheapest s.json --error nan --out d", "--error");
+        for (const char* kind : {"cheapest", "needs", "limits", "extremes --x /model/l=1:2:2"})
+            row(qPrintable("study " + QString(kind).replace(" ", " s.json ") +
+                           (QString(kind).contains(" ") ? "" : " s.json") + " --error nan --out d"),
+                "--error");
         row("run s.json --checkpoint nan --out d", "--checkpoint");
         row("run s.json --checkpoint -1 --out d", "--checkpoint");
         row("run s.json --checkpoint inf --out d", "--checkpoint");

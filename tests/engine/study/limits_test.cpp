@@ -171,6 +171,19 @@ private slots:
         request.wishes = {"energy=0"};
         QCOMPARE(pointer(request), "--wish");
         request.wishes = {};
+        request.error = -1;
+        QCOMPARE(pointer(request), "--error");
+        // --error E is a wish for the metric of the study, beside others.
+        request.error = 1e-3;
+        request.metric = "energy";
+        request.wishes = {"error=1e-2"};
+        request.kind = "limits";
+        const AnyStudy study = makeStudy(knownStudy(request), request, &scene, 1);
+        const std::vector<Wish>& wishes = std::get<LimitsStudy>(study).options().wishes;
+        QCOMPARE(wishes.size(), std::size_t{2});
+        QCOMPARE(wishes.front().metric, "energy");
+        QCOMPARE(wishes.front().value, 1e-3);
+        request = {};
         request.candidates = "all";
         QCOMPARE(pointer(request), "--candidates");
         request.candidates = {};
