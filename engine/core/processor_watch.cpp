@@ -26,6 +26,22 @@ ProcessorWatch::Armed::~Armed() {
     watch_.limit_.reset();
 }
 
+ProcessorWatch::Pause::Pause(ProcessorWatch* watch) : watch_(watch) {
+    if (!watch_) return;
+    const std::scoped_lock lock(watch_->mutex_);
+    if (!watch_->limit_) return;
+    watch_->limit_->isPaused = true;
+    begin_ = secondsOf(watch_->limit_->clock);
+}
+
+ProcessorWatch::Pause::~Pause() {
+    if (!watch_) return;
+    const std::scoped_lock lock(watch_->mutex_);
+    if (!watch_->limit_) return;
+    watch_->limit_->isPaused = false;
+    watch_->limit_->end += secondsOf(watch_->limit_->clock) - begin_;
+}
+
 void ProcessorWatch::look(const std::stop_token& end) {
     using namespace std::chrono_literals;
     std::condition_variable_any isEnded;
@@ -33,7 +49,8 @@ void ProcessorWatch::look(const std::stop_token& end) {
     while (!end.stop_requested()) {
         // Nobody notifies: it wakes up to look, and at the end at once.
         isEnded.wait_for(lock, end, 3ms, [] { return false; });
-        if (limit_ && secondsOf(limit_->clock) > limit_->end) limit_->source.request_stop();
+        const bool isOver = limit_ && !limit_->isPaused && secondsOf(limit_->clock) > limit_->end;
+        if (isOver) limit_->source.request_stop();
     }
 }
 

@@ -35,11 +35,25 @@ public:
         return source.stop_requested() && !outer.stop_requested();
     }
 
+    /// While it lives, what its thread does counts for nothing: work for others than the one that is watched.
+    class Pause {
+    public:
+        explicit Pause(ProcessorWatch* watch);  ///< null: there is nothing to watch
+        ~Pause();
+        Pause(const Pause&) = delete;
+        Pause& operator=(const Pause&) = delete;
+
+    private:
+        ProcessorWatch* watch_;
+        double begin_ = 0;
+    };
+
 private:
     struct Limit {
         clockid_t clock;
         double end;
         std::stop_source source;
+        bool isPaused = false;
     };
     class Armed {
     public:

@@ -145,6 +145,7 @@ public:
             std::any_of(metrics.begin(), metrics.end(), [](const Metric& m) { return m.reads("energy"); });
         MotionCheck check(system_, start_, step_, isOfEnergy);
         const auto soundNodes = [&](const NodeBlock& block) {
+            const ProcessorWatch::Pause pause(limit.watch);  // a reference may have to be integrated
             return measured.soundNodes(block, isOfEnergy ? &check : nullptr);
         };
         const MarchSink sink{see, false, measured.readsQuantities(), soundNodes};

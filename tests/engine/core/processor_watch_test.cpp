@@ -47,6 +47,22 @@ private slots:
                            [&](const std::stop_token& stop) { isStopped = stop.stop_requested(); }));
         QVERIFY(!isStopped);
     }
+    void whatIsDoneInAPauseIsNotCounted() {
+        ProcessorWatch watch;
+        double after = 0;
+        QVERIFY(watch.run(0.03, {}, [&](const std::stop_token& stop) {
+            {
+                const ProcessorWatch::Pause pause(&watch);
+                const double begin = threadSeconds();
+                while (threadSeconds() - begin < 0.1) {
+                }
+                QVERIFY(!stop.stop_requested());
+            }
+            after = workUntil(stop);
+        }));
+        QVERIFY(after > 0.02 && after < tooLong);
+        const ProcessorWatch::Pause nothing(nullptr);
+    }
     void othersMayEndItAsWell() {
         ProcessorWatch watch;
         std::stop_source outer;
