@@ -69,9 +69,14 @@ double CandidateRace::costAt(std::size_t entry, double n) const {
         return at.second * n / at.first;
     }
     if (runs.empty()) return own.firstCost * std::pow(n / own.firstN, usual);
+    // Of those that have failed only where there is no other.
     std::size_t near = 0;
+    const auto distance = [&](std::size_t i) {
+        return std::pair{!isUnknown(entry) && !std::isfinite(runs[i].excess),
+                         std::abs(std::log(runs[i].n / n))};
+    };
     for (std::size_t i = 1; i < runs.size(); ++i)
-        if (std::abs(std::log(runs[i].n / n)) < std::abs(std::log(runs[near].n / n))) near = i;
+        if (distance(i) < distance(near)) near = i;
     double g = usual;
     if (near > 0 && runs[near].excess < HUGE_VAL && runs[near - 1].excess < HUGE_VAL)
         g = std::clamp(
@@ -94,8 +99,10 @@ std::optional<CandidateRace::Plan> CandidateRace::planOf(std::size_t entry) {
     const double limit = limitOf(entry);
     const auto best = bestOf(entry);
     if (s.again && s.again->second <= limit) return Plan{s.again->first, s.again->second};
-    if (s.again && isUnknown(entry) && !own.trials.empty()) {
-        // Steps that are too long may cost more than shorter ones: as far as trials tell, it goes on.
+    const bool isLonger = s.again && best && s.again->first < s.runs[*best].n;
+    if (s.again && (isLonger || (isUnknown(entry) && !own.trials.empty()))) {
+        // Steps that are too long may cost more than shorter ones: as far as trials, or what has reached the
+        // wish, tell, it goes on.
         const double n = s.again->first;
         keep(s, {n, HUGE_VAL, own.firstCost, false, true, false});
     } else if (s.again) {
@@ -109,7 +116,10 @@ std::optional<CandidateRace::Plan> CandidateRace::planOf(std::size_t entry) {
     if (s.made >= mostRuns) return drop(entry, best ? RaceEnd::reached : RaceEnd::exhausted);
     if (own.hasOtherKnob) return drop(entry, RaceEnd::cutOff);
     if (s.runs.empty()) {
-        if (own.firstCost > limit) return drop(entry, RaceEnd::cutOff);
+        // The first steps of a run, which have none before them to begin from, cost more than the others; and
+        // no run costs more than the limit.
+        constexpr double firstSteps = 3;
+        if (own.firstCost > firstSteps * limit) return drop(entry, RaceEnd::cutOff);
         return Plan{own.firstN, own.firstCost};
     }
     return best ? between(entry, limit) : finer(entry, limit);
@@ -128,8 +138,8 @@ std::optional<CandidateRace::Plan> CandidateRace::between(std::size_t entry, dou
     if (bad) {
         if (good.n <= bad->n * apart || (!own.isAdaptive && good.n - bad->n <= 1))
             return drop(entry, RaceEnd::reached, good.n);
-        // Between the two it might be the cheapest, or not any more.
-        if (bad->cost > limit) return drop(entry, RaceEnd::reached, good.n);
+        // Between the two it might be the cheapest, or not any more. What has failed says nothing of it.
+        if (bad->cost > limit && std::isfinite(bad->excess)) return drop(entry, RaceEnd::reached, good.n);
         double part = 0.5;  // of the way from bad to good, on the logarithmic scale
         if (std::isfinite(bad->excess) && std::isfinite(good.excess) && bad->excess > 0)
             part = std::clamp(bad->excess / (bad->excess - good.excess), 0.15, 0.9);
