@@ -252,18 +252,15 @@ std::vector<PointResult> Sweep::spend(const std::vector<SearchedScheme>& schemes
     const double length = timeSpan(scene_.scene).length();
     return bestWithin({scene_, points, metrics, wishes,
                        [&](const StudyPoint& point) { return reference.of(scene_.schemes[point.scheme]); },
-                       options_.budget * (options_.isPerTime ? length : 1), seconds, options_.repeat},
+                       reference_.estimatedError, options_.budget * (options_.isPerTime ? length : 1),
+                       seconds, options_.repeat},
                       stop);
 }
 
 bool Sweep::isJudged(const PointResult& result) const {
     constexpr double likeTheMotion = 0.2;
     if (!result.isDone() || !std::isfinite(result.error)) return false;
-    const bool hasFloor =
-        metric().needsReference() && !metric().needsSizes() && std::isfinite(reference_.estimatedError);
-    const double floor =
-        hasFloor ? metric().combined(std::vector<double>(metric().terms.size(), reference_.estimatedError))
-                 : 0;
+    const double floor = metric().needsSizes() ? 0 : metric().floorBy(reference_.estimatedError);
     return result.error >= floor && result.error < likeTheMotion * metricSize_;
 }
 

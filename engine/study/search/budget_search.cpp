@@ -80,7 +80,8 @@ private:
         for (std::size_t i = 0; i < search_.wishes.size(); ++i) {
             const double value = result.errorIn(i);
             if (!std::isfinite(value)) return HUGE_VAL;
-            most = std::max(most, std::log(std::max(value, least) / search_.wishes[i]));
+            const double floor = search_.metrics[i].floorBy(search_.referenceError);
+            most = std::max(most, std::log(std::max({value, floor, least}) / search_.wishes[i]));
         }
         return most;
     }

@@ -22,9 +22,10 @@ struct BudgetSearch {
     std::span<const Metric> metrics;
     std::span<const double> wishes;  ///< one per metric: what errors are compared by
     std::function<ExactSolution(const StudyPoint&)> reference;
-    double budget = 0;   ///< seconds of CPU for a run
-    double seconds = 1;  ///< of CPU for the search
-    int repeat = 5;      ///< timed runs of the best three
+    double referenceError = 0;  ///< its own: nobody is better than that
+    double budget = 0;          ///< seconds of CPU for a run
+    double seconds = 1;         ///< of CPU for the search
+    int repeat = 5;             ///< timed runs of the best three
 };
 
 /// One result per candidate: status done and the excess where a run keeps within the budget; else failed,

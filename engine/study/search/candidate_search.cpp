@@ -43,20 +43,14 @@ StudyPoint CandidateSearch::pointAt(const StudyPoint& own, const ResolvedScheme&
     return point;
 }
 
-/// Where errors end that the reference allows to be seen, in the metric.
-double CandidateSearch::floorOf(std::size_t metric) const {
-    const Metric& m = metrics_[metric];
-    if (!m.needsReference() || !std::isfinite(reference_.estimatedError)) return 0;
-    return m.combined(std::vector<double>(m.terms.size(), reference_.estimatedError));
-}
-
 double CandidateSearch::excessOf(const PointResult& result, std::span<const double> wishes) const {
     constexpr double least = 1e-300;
     double most = -HUGE_VAL;
     for (std::size_t i = 0; i < wishes.size(); ++i) {
         const double value = result.errorIn(i);
         if (!result.isDone() || !std::isfinite(value)) return HUGE_VAL;
-        most = std::max(most, std::log(std::max(value, least) / wishes[i]));
+        // Below the floor of the reference nobody is better than another.
+        most = std::max(most, std::log(std::max({value, floorOf(i), least}) / wishes[i]));
     }
     return most;
 }
@@ -88,21 +82,30 @@ void CandidateSearch::findStart(const StudyPoint& own, const ResolvedScheme& sch
     constexpr double tooMuchWork = 1e6;
     double least = HUGE_VAL, cutOff = 0;
     constexpr std::size_t usual = 3;
-    for (std::size_t i = 0; i < (isPressed ? std::size(trialLengths) : usual); ++i) {
-        if (i >= usual && std::isfinite(least)) break;
-        if (isPressed && useless_[i] >= enough) continue;
-        const double n = trialLengths[i];
+    const auto wholeRun = [&](double n) {
         const StepCost cost =
             tryPoint(scene_, pointAt(own, scheme, n), steps, {.seconds = longest, .watch = &watch_}, stop_);
-        const double whole = n * (isCounted_ ? cost.work : cost.seconds);
-        useless_[i] = std::isfinite(whole) ? 0 : useless_[i] + 1;
         if (cost.isCutOff) cutOff = isCounted_ ? tooMuchWork : longest;
-        if (std::isfinite(whole)) entry.trials.emplace_back(n, whole);
+        const double whole = n * (isCounted_ ? cost.work : cost.seconds);
         if (whole < least) {
             least = whole;
             entry.firstN = n;
         }
+        return whole;
+    };
+    for (std::size_t i = 0; i < (isPressed ? std::size(trialLengths) : usual); ++i) {
+        if (i >= usual && std::isfinite(least)) break;
+        if (isPressed && useless_[i] >= enough) continue;
+        const double n = trialLengths[i], whole = wholeRun(n);
+        useless_[i] = std::isfinite(whole) ? 0 : useless_[i] + 1;
+        if (std::isfinite(whole)) entry.trials.emplace_back(n, whole);
         if (std::isfinite(least) && whole > 3 * least) break;  // as long as steps cost the same, n decides
+    }
+    // Where longer steps cost more, the best may be between.
+    if (std::isfinite(least) && entry.firstN > trialLengths[0]) {
+        const double n = entry.firstN / 2, whole = wholeRun(n);
+        if (std::isfinite(whole)) entry.trials.emplace_back(n, whole);
+        std::sort(entry.trials.begin(), entry.trials.end());
     }
     entry.firstCost = std::isfinite(least) ? least : cutOff;
 }
@@ -285,7 +288,8 @@ std::string CandidateSearch::reasonOf(const CandidateRace& race, std::size_t ind
             [[fallthrough]];
         case RaceEnd::atFloor:
             if (nearest.cause == Outcome::refused) return "refused: " + nearest.reason;
-            return "ends at " + formatNumber(nearest.error, 2) +
+            return "ends at " +
+                   formatNumber(nearest.floorOf == "reference" ? nearest.floor : nearest.error, 2) +
                    (nearest.floorOf.empty() ? "" : " (" + nearest.floorOf + ")");
         case RaceEnd::exhausted:
             if (runs.empty()) return "not searched";

@@ -121,7 +121,7 @@ private:
     void timeOne(std::size_t index, PointResult& result, int repeat);
     double excessOf(const PointResult& result, std::span<const double> wishes) const;
     bool isSaturated(const PointResult& result) const;
-    double floorOf(std::size_t metric) const;
+    double floorOf(std::size_t metric) const { return metrics_[metric].floorBy(reference_.estimatedError); }
 
     const ResolvedScene& scene_;
     std::vector<SearchedScheme> schemes_;
@@ -136,7 +136,7 @@ private:
     ProcessorWatch watch_;
     int runs_ = 0;
     std::vector<std::optional<RaceEntry>> entries_;  ///< with where each begins, once it is known
-    static constexpr double longestStep = 20;  ///< CPU seconds of a run that is counted and not timed
+    static constexpr double longestStep = 20;        ///< CPU seconds of a run that is counted and not timed
     static constexpr double trialLengths[] = {6, 24, 96, 384, 1536};  ///< of the whole motion, steps
     int useless_[std::size(trialLengths)] = {};  ///< schemes in a row that have no solution there
     std::map<Key, Known> known_;

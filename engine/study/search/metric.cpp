@@ -217,6 +217,11 @@ std::string Metric::unit() const { return terms.front().hasScale ? std::string()
 
 std::string Metric::title() const { return isSum || terms.front().hasScale ? name : terms.front().symbol; }
 
+double Metric::floorBy(double referenceError) const {
+    if (!needsReference() || !std::isfinite(referenceError)) return 0;
+    return combined(std::vector<double>(terms.size(), referenceError));
+}
+
 double Metric::combined(std::span<const double> values) const {
     double sum = 0;
     for (std::size_t i = 0; i < terms.size(); ++i) {

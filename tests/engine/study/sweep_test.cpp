@@ -158,6 +158,53 @@ private slots:
             QVERIFY(std::abs(fit.order - claimed) < 0.1);  // 1.98, 3.97
         }
     }
+    /// What the reference cannot tell, and what is as large as the motion, has no order, no place in the
+    /// front and no rank.
+    void nothingIsSaidBelowTheFloor() {
+        const auto sceneWith = [](const char* reference) {
+            return keplerScene(R"({"label":"Gauss 4","step":0.1,"scheme":"galerkin-gauss-4"},
+                {"label":"SV","step":0.1,"baseline":"stormer-verlet"})",
+                               reference);
+        };
+        // A reference of its own that is good to some 1e-7.
+        const ResolvedScene scene =
+            sceneWith(R"(,"reference":{"type":"scheme","scheme":{"step":0.01,"scheme":"galerkin-gauss-2"}})");
+        SweepOptions options =
+            shortOptions({1.5, 1, 0.75, 0.5, 0.3, 0.2, 0.15, 0.1, 0.075, 0.05, 0.025, 0.0125});
+        Sweep sweep(scene, options);
+        runAll(sweep);
+        const double floor = sweep.reference().estimatedError, most = 0.2 * sweep.metricSize();
+        const std::vector<bool> front = paretoFront(sweep);
+        int below = 0, above = 0, between = 0;
+        double least = most, largest = 0;
+        for (std::size_t i = 0; i < sweep.size(); ++i) {
+            const PointResult& r = sweep.rows()[i].result;
+            const bool isBelow = r.error < floor, isAbove = !(r.error < most);
+            below += isBelow;
+            above += isAbove;
+            between += !isBelow && !isAbove;
+            QVERIFY(!front[i] || !(isBelow || isAbove));
+            if (!isBelow && !isAbove) {
+                least = std::min(least, sweep.rows()[i].point.step);
+                largest = std::max(largest, sweep.rows()[i].point.step);
+            }
+        }
+        qInfo("floor %.2g, below %d, between %d, like the motion %d", floor, below, between, above);
+        QVERIFY(below > 1 && between > 2 && above > 0);
+        const OrderFit fit = fitOrders(sweep).front();
+        if (fit.isKnown()) QVERIFY(fit.to >= least && fit.from <= largest);
+        // A wish below the floor is reached by nobody, however small the number; above it by somebody.
+        for (const double part : {1e-3, 10.0}) {
+            SweepOptions search = shortOptions({});
+            search.wantedError = part * floor;
+            Sweep cheapest(scene, search);
+            runAll(cheapest);
+            const PointResult& r = cheapest.rows().front().result;
+            qInfo("%.2g: %s", search.wantedError, r.reason.c_str());
+            QCOMPARE(r.isDone(), part > 1);
+            if (part < 1) QCOMPARE(r.floorOf, std::string("reference"));
+        }
+    }
     void aPointIsTheRunOfAScene() {
         Sweep sweep(keplerScene(), shortOptions({0.1}));
         runAll(sweep);
