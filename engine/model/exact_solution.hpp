@@ -48,6 +48,13 @@ public:
     }
     void setCheckpoint(std::function<void(Archive&)> checkpoint) { checkpoint_ = std::move(checkpoint); }
 
+    /// Of solutions that are stepped along: the step [first, second] that has t in it, whose times may then
+    /// be asked for in any order without coming from the start again; not a number where it did not get
+    /// there.
+    using StepAt = std::function<std::pair<double, double>(double t)>;
+    const StepAt& stepAt() const { return stepAt_; }  ///< of others empty
+    void setStepAt(StepAt stepAt) { stepAt_ = std::move(stepAt); }
+
     explicit operator bool() const { return static_cast<bool>(many_); }
 
     void operator()(double t, std::span<double> x) const { many_({&t, 1}, x.data(), x.size()); }
@@ -58,6 +65,7 @@ private:
     std::function<void(std::span<const double> t, double* x, std::size_t width)> many_;
     AtPlaces atPlaces_;
     std::function<void(Archive&)> checkpoint_;
+    StepAt stepAt_;
 };
 
 }  // namespace extremal

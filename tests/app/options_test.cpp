@@ -428,10 +428,10 @@ private slots:
         row("study convergence s.json --points 3 --out d", "--points");
         row("study convergence s.json --from nan --to 0.1 --out d", "--from");
         row("study convergence s.json --steps 0.1,inf --out d", "--steps");
-        for (const char* kind : {"cheapest", "needs", "limits", "extremes --x /model/l=1:2:2"})
-            row(qPrintable("study " + QString(kind).replace(" ", " s.json ") +
-                           (QString(kind).contains(" ") ? "" : " s.json") + " --error nan --out d"),
-                "--error");
+        row("study cheapest s.json --error nan --out d", "--error");
+        row("study needs s.json --error nan --out d", "--error");
+        row("study limits s.json --error -1 --out d", "--error");
+        row("study extremes s.json --x /model/l=1:2:2 --error nan --out d", "--error");
         row("run s.json --checkpoint nan --out d", "--checkpoint");
         row("run s.json --checkpoint -1 --out d", "--checkpoint");
         row("run s.json --checkpoint inf --out d", "--checkpoint");

@@ -27,23 +27,18 @@ public:
         rewind();
     }
     void operator()(double t, std::span<double> x) {
-        if (read_) resume(t);
-        if (t < before_) rewind();
-        while (!hasFailed_ && state_.t < t) {
-            before_ = state_.t;
-            const bool isFixed = integrator_->grid() == TimeGrid::fixed;
-            const StepReport report =
-                integrator_->advance(state_, isFixed ? clock_.at(state_.node + 1) : std::max(end_, t));
-            hasFailed_ = report.outcome != Outcome::converged;
-            if (hasFailed_ && failure_) *failure_ = {report.outcome, state_.t};
-            count({1, report.event != StepEvent::none});
-        }
+        goTo(t);
         if (hasFailed_)
             std::fill(x.begin(), x.end(), std::numeric_limits<double>::quiet_NaN());
         else if (t == state_.t)
             std::copy(state_.x.begin(), state_.x.end(), x.begin());
         else
             integrator_->denseOutput((t - before_) / (state_.t - before_), x);
+    }
+    std::pair<double, double> stepAt(double t) {
+        goTo(t);
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        return hasFailed_ ? std::pair{unknown, unknown} : std::pair{before_, state_.t};
     }
 
     /// Where it is, without the dense output of its last step.
@@ -61,6 +56,19 @@ public:
     }
 
 private:
+    void goTo(double t) {
+        if (read_) resume(t);
+        if (t < before_) rewind();
+        while (!hasFailed_ && state_.t < t) {
+            before_ = state_.t;
+            const bool isFixed = integrator_->grid() == TimeGrid::fixed;
+            const StepReport report =
+                integrator_->advance(state_, isFixed ? clock_.at(state_.node + 1) : std::max(end_, t));
+            hasFailed_ = report.outcome != Outcome::converged;
+            if (hasFailed_ && failure_) *failure_ = {report.outcome, state_.t};
+            count({1, report.event != StepEvent::none});
+        }
+    }
     struct Place {
         State state = {};
         std::string integrator = {};
@@ -112,6 +120,7 @@ std::function<ExactSolution()> stepped(MakeStepper make, const State& initial, d
         const auto solution = std::make_shared<SteppedSolution>(make, initial, end, counts, failure);
         ExactSolution along = [solution](double t, std::span<double> x) { (*solution)(t, x); };
         along.setCheckpoint([solution](Archive& archive) { solution->checkpoint(archive); });
+        along.setStepAt([solution](double t) { return solution->stepAt(t); });
         return along;
     };
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 
 namespace extremal {
@@ -26,35 +27,118 @@ const std::array<double, points>& chebyshevPoints() {
 /// Two places of an interval that are far from its points.
 constexpr std::array<double, 2> probes{0.4477, 0.9731};
 
-}  // namespace
+constexpr std::size_t mostNumbers = 1'100'000;
 
-void TabulatedSolution::at(double t, double* x) const {
+/// By the barycentric formula, at s in [0, 1].
+void interpolate(const double* states, double at, std::size_t width, double* x) {
     const std::array<double, points>& s = chebyshevPoints();
-    const double place = (t - start_) / length_ * static_cast<double>(intervals_);
-    const double k = std::clamp(std::floor(place), 0.0, static_cast<double>(intervals_ - 1));
-    const double at = place - k;
-    const double* const states = states_.data() + static_cast<std::size_t>(k) * points * width_;
-    std::fill_n(x, width_, 0.0);
+    std::fill_n(x, width, 0.0);
     double sum = 0;
     for (std::size_t j = 0; j < points; ++j) {
         if (at == s[j]) {
-            std::copy_n(states + j * width_, width_, x);
+            std::copy_n(states + j * width, width, x);
             return;
         }
         const bool isEnd = j == 0 || j + 1 == points;
         const double weight = (j % 2 == 0 ? 1 : -1) * (isEnd ? 0.5 : 1) / (at - s[j]);
         sum += weight;
-        for (std::size_t i = 0; i < width_; ++i) x[i] += weight * states[j * width_ + i];
+        for (std::size_t i = 0; i < width; ++i) x[i] += weight * states[j * width + i];
     }
-    for (std::size_t i = 0; i < width_; ++i) x[i] /= sum;
+    for (std::size_t i = 0; i < width; ++i) x[i] /= sum;
+}
+
+}  // namespace
+
+/// What a table has to reproduce.
+struct TabulatedSolution::Wanted {
+    std::size_t width, checked;
+    double tolerance;
+};
+
+void TabulatedSolution::at(double t, double* x) const {
+    if (!bounds_.empty()) {
+        const auto next = std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, t);
+        const double from = *(next - 1), place = (t - from) / (*next - from);
+        const auto k = static_cast<std::size_t>(next - bounds_.begin()) - 1;
+        interpolate(states_.data() + k * points * width_, place, width_, x);
+        return;
+    }
+    const double place = (t - start_) / length_ * static_cast<double>(intervals_);
+    const double k = std::clamp(std::floor(place), 0.0, static_cast<double>(intervals_ - 1));
+    interpolate(states_.data() + static_cast<std::size_t>(k) * points * width_, place - k, width_, x);
+}
+
+std::optional<bool> TabulatedSolution::sample(const ExactSolution& solution, double from, double to,
+                                              const Wanted& wanted, double* states,
+                                              std::vector<double>& sizes) {
+    constexpr double relative = 1e-13;
+    const std::size_t width = wanted.width;
+    std::vector<double> probed(probes.size() * width), read(width);
+    const auto timeAt = [&](double s) { return s == 1 ? to : from + (to - from) * s; };
+    // In the order of time: a solution that is stepped along does not like to go back.
+    std::size_t probe = 0;
+    for (std::size_t j = 0; j < points; ++j) {
+        const double s = chebyshevPoints()[j];
+        for (; probe < probes.size() && probes[probe] < s; ++probe)
+            solution(timeAt(probes[probe]), std::span(probed).subspan(probe * width, width));
+        solution(timeAt(s), std::span(states + j * width, width));
+    }
+    bool isGood = true;
+    for (std::size_t p = 0; p < probes.size(); ++p) {
+        interpolate(states, probes[p], width, read.data());
+        for (std::size_t i = 0; i < wanted.checked; ++i) {
+            const double off = std::abs(read[i] - probed[p * width + i]);
+            if (!std::isfinite(off)) return {};
+            sizes[i] = std::max(sizes[i], std::abs(read[i]));
+            isGood = isGood && off <= std::max(wanted.tolerance, relative * sizes[i]);
+        }
+    }
+    return isGood;
+}
+
+/// False: the solution ends there, or there are too many numbers.
+bool TabulatedSolution::addPiece(const ExactSolution& solution, double from, double to, double least,
+                                 const Wanted& wanted, std::vector<double>& sizes) {
+    const std::size_t size = states_.size();
+    if (size + points * width_ > mostNumbers) return false;
+    states_.resize(size + points * width_);
+    const std::optional<bool> isGood = sample(solution, from, to, wanted, states_.data() + size, sizes);
+    if (!isGood) return false;
+    if (*isGood || to - from <= least) {
+        bounds_.push_back(to);
+        return true;
+    }
+    states_.resize(size);
+    const double middle = from + (to - from) / 2;
+    return addPiece(solution, from, middle, least, wanted, sizes) &&
+           addPiece(solution, middle, to, least, wanted, sizes);
+}
+
+std::shared_ptr<const TabulatedSolution> TabulatedSolution::ofSteps(const ExactSolution& solution,
+                                                                    double start, double end,
+                                                                    const Wanted& wanted,
+                                                                    const std::stop_token& stop) {
+    constexpr double part = 1e-13;
+    const auto table = std::make_shared<TabulatedSolution>();
+    table->width_ = wanted.width;
+    table->bounds_ = {start};
+    std::vector<double> sizes(wanted.width, 0.0);
+    while (table->bounds_.back() < end) {
+        const double from = table->bounds_.back(),
+                     to = std::min(end, solution.stepAt()(std::nextafter(from, end)).second);
+        if (stop.stop_requested() || !(to > from) ||
+            !table->addPiece(solution, from, to, part * (end - start), wanted, sizes))
+            return {};
+    }
+    return table;
 }
 
 std::shared_ptr<const TabulatedSolution> TabulatedSolution::of(const ExactSolution& solution, double start,
                                                                double end, std::size_t width,
                                                                std::size_t checked, double tolerance,
                                                                const std::stop_token& stop) {
-    constexpr std::size_t fewest = 16, growth = 4, mostNumbers = 1'100'000;
-    constexpr double relative = 1e-13;
+    constexpr std::size_t fewest = 16, growth = 4;
+    const Wanted wanted{width, checked, tolerance};
     for (std::size_t intervals = fewest; intervals * points * width <= mostNumbers; intervals *= growth) {
         auto table = std::make_shared<TabulatedSolution>();
         table->start_ = start;
@@ -62,36 +146,22 @@ std::shared_ptr<const TabulatedSolution> TabulatedSolution::of(const ExactSoluti
         table->intervals_ = intervals;
         table->width_ = width;
         table->states_.resize(intervals * points * width);
-        std::vector<double> probed(probes.size() * width), read(width);
         std::vector<double> sizes(width, 0.0);
         bool isGood = true;
         for (std::size_t k = 0; k < intervals && isGood && !stop.stop_requested(); ++k) {
-            const double from = static_cast<double>(k) / static_cast<double>(intervals);
-            const auto timeAt = [&](double s) {
-                return start + (end - start) * (from + s / static_cast<double>(intervals));
+            const auto timeAt = [&](std::size_t i) {
+                return start + (end - start) * (static_cast<double>(i) / static_cast<double>(intervals));
             };
-            // In the order of time: a solution that is stepped along does not like to go back.
-            std::size_t probe = 0;
-            for (std::size_t j = 0; j < points; ++j) {
-                const double s = chebyshevPoints()[j];
-                for (; probe < probes.size() && probes[probe] < s; ++probe)
-                    solution(timeAt(probes[probe]), std::span(probed).subspan(probe * width, width));
-                solution(timeAt(s), std::span(table->states_).subspan((k * points + j) * width, width));
-            }
-            for (std::size_t p = 0; p < probes.size(); ++p) {
-                table->at(timeAt(probes[p]), read.data());
-                for (std::size_t i = 0; i < checked; ++i) {
-                    const double off = std::abs(read[i] - probed[p * width + i]);
-                    if (!std::isfinite(off)) return {};
-                    sizes[i] = std::max(sizes[i], std::abs(read[i]));
-                    isGood = isGood && off <= std::max(tolerance, relative * sizes[i]);
-                }
-            }
+            const std::optional<bool> isReproduced =
+                sample(solution, timeAt(k), timeAt(k + 1), wanted, table->states_.data() + k * points * width,
+                       sizes);
+            if (!isReproduced) return {};
+            isGood = *isReproduced;
         }
         if (stop.stop_requested()) return {};
         if (isGood) return table;
     }
-    return {};
+    return solution.stepAt() && end > start ? ofSteps(solution, start, end, wanted, stop) : nullptr;
 }
 
 ExactSolution TabulatedSolution::reader(std::shared_ptr<const TabulatedSolution> table) {

@@ -5,11 +5,14 @@
 ///     x(t) = sum_j l_j(s) x_j,   s = (t - t_k)/H,   on each of K equal intervals
 ///
 /// with 16 Chebyshev points of the second kind. K grows by 4 until the table reproduces every entry of the
-/// solution, between its points, to the tolerance or to 1e-13 of the entry's own size.
+/// solution, between its points, to the tolerance or to 1e-13 of the entry's own size. A solution that is
+/// stepped along and has kinks or jumps, as at walls, is taken step by step instead; a step that 16 points do
+/// not reproduce is halved, down to 1e-13 of the run about a jump.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -31,6 +34,17 @@ public:
     void at(double t, double* x) const;
 
 private:
+    struct Wanted;
+    static std::shared_ptr<const TabulatedSolution> ofSteps(const ExactSolution& solution, double start,
+                                                            double end, const Wanted& wanted,
+                                                            const std::stop_token& stop);
+    bool addPiece(const ExactSolution& solution, double from, double to, double least, const Wanted& wanted,
+                  std::vector<double>& sizes);
+    /// Samples [from, to] at the place of a piece. Whether it is reproduced; nothing where it is not known.
+    static std::optional<bool> sample(const ExactSolution& solution, double from, double to,
+                                      const Wanted& wanted, double* states, std::vector<double>& sizes);
+
+    std::vector<double> bounds_;  ///< of intervals that are not equal, ascending; else empty
     double start_ = 0, length_ = 0;
     std::size_t intervals_ = 0, width_ = 0;
     std::vector<double> states_;  ///< interval after interval, point after point

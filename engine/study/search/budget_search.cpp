@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/core/text/text.hpp"
 #include "engine/core/thread_clock.hpp"
@@ -13,6 +14,11 @@
 
 namespace extremal {
 namespace {
+
+/// Of two below the floor of the reference the one with the smaller number.
+bool isBetter(const PointResult& a, const PointResult& b) {
+    return std::pair(a.excess, a.error) < std::pair(b.excess, b.error);
+}
 
 /// Runs of one candidate.
 class OneBudget {
@@ -65,7 +71,7 @@ private:
         const double cost = result.cpuSeconds / search_.budget;
         result.excess = excessOf(result);
         constexpr double slack = 1.02;
-        if (cost <= slack && std::isfinite(result.excess) && (!best_ || result.excess < best_->excess))
+        if (cost <= slack && std::isfinite(result.excess) && (!best_ || isBetter(result, *best_)))
             best_ = result;
         if (cost > slack && failure_.reason.empty()) {
             failure_.status = RunStatus::failed;
@@ -183,7 +189,7 @@ std::vector<PointResult> bestWithin(const BudgetSearch& search, const std::stop_
     for (std::size_t i = 0; i < results.size(); ++i)
         if (results[i].isDone()) order.push_back(i);
     std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return results[a].excess < results[b].excess; });
+              [&](std::size_t a, std::size_t b) { return isBetter(results[a], results[b]); });
     for (std::size_t place = 0; place < std::min(timed, order.size()) && !stop.stop_requested(); ++place) {
         PointResult& r = results[order[place]];
         StudyPoint at = search.candidates[order[place]];

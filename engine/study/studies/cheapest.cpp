@@ -33,7 +33,8 @@ std::vector<const SweepRow*> ranked(const Sweep& sweep) {
         if (a->result.isDone() != b->result.isDone()) return a->result.isDone();
         const bool isByError = !a->result.isDone() || sweep.options().budget > 0;
         if (isByError && sweep.options().budget > 0 && a->result.isDone())
-            return a->result.excess < b->result.excess;
+            return std::pair(a->result.excess, a->result.error) <
+                   std::pair(b->result.excess, b->result.error);
         return isByError ? a->result.error < b->result.error : cost(*a) < cost(*b);
     });
     return all;
