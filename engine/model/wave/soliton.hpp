@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Exact solutions of i hbar psi_t = -hbar^2/(2m) psi_xx + g |psi|^2 psi on the line, with attraction, g < 0:
+/// Solitons of i hbar psi_t = -hbar^2/(2m) psi_xx + g |psi|^2 psi on the line. Exact with attraction, g < 0:
 /// for A > 0 and kappa = A sqrt(-g m)/hbar,
 ///
 ///     soliton      A sech(kappa (x - x0 - v t)) exp(i (m v (x - x0) - (m v^2/2 - hbar^2 kappa^2/2m) t)/hbar)
@@ -9,6 +9,11 @@
 ///                  tau)
 /// (Satsuma and Yajima 1974). Around a circle x - x0 - v t is taken to the nearest copy of the centre: a
 /// solution as far as it vanishes half a length away from it.
+///
+/// With repulsion, g > 0, `dark-soliton-pair` is the product of two dark solitons with velocities v and -v,
+/// whose jumps of the phase cancel around the circle,
+///     A (d tanh(k (x - x1 - v t)) + i n) (d tanh(k (x - x2 + v t)) - i n) exp(-i g A^2 t/hbar),
+/// n = v/(A sqrt(g/m)), d^2 = 1 - n^2, k = d A sqrt(g m)/hbar: a solution as far as they are apart.
 #pragma once
 
 #include <functional>
@@ -22,8 +27,8 @@
 
 namespace extremal::wave {
 
-/// Catalogue entries of the packets `soliton` {amplitude, velocity, centre} and `two-soliton` {amplitude,
-/// centre}.
+/// Catalogue entries of the packets `soliton` {amplitude, velocity, centre}, `two-soliton` {amplitude,
+/// centre} and `dark-soliton-pair` {amplitude, velocity, separation, centre}.
 std::vector<CatalogItem> solitonPackets();
 
 using LineSolution = std::function<Complex(double x, double t)>;
@@ -34,7 +39,7 @@ bool vanishesAtEnds(const LineSolution& psi, const Hamiltonian& h);
 
 /// The solution that the key "psi" of a scene names; nothing where it names another start. Throws
 /// InvalidScene with pointers that start with `pointer` where keys are wrong, or the equation is another one:
-/// a potential, or g >= 0.
+/// a potential, or g of the other sign.
 std::optional<LineSolution> solitonOf(const Value& psi, const std::string& pointer, const Hamiltonian& h,
                                       double g);
 

@@ -97,7 +97,7 @@ void useCoupling(System& s, const Shared& h, Coupling coupling) {
     if (h->dimension() == 2 && coupling.g < 0) s.parts.set(collapseLimit(h, coupling));
     s.exactFrom = [h, g = coupling.g](const Settings& initial, const State&) -> ExactSolution {
         const auto soliton = wave::solitonOf(*initial.find("psi"), "/psi", *h, g);
-        if (!soliton || !wave::vanishesAtEnds(*soliton, *h)) return {};
+        if (!soliton || g > 0 || !wave::vanishesAtEnds(*soliton, *h)) return {};
         return [h, psi = *soliton](double t, std::span<double> x) {
             const std::vector<double> state = stateOf(*h, psi, t);
             std::copy(state.begin(), state.end(), x.begin());

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/core/problem.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/model/wave/interaction.hpp"
 #include "engine/scene/write/codec.hpp"
@@ -104,6 +105,47 @@ private slots:
             qInfo("%s: order %.2f", row.name, order);
             QVERIFY2(order > row.order - 0.15 && order < row.order + row.more, row.name);
         }
+    }
+    void darkSolitonsHaveTheErrorsOfTheTable() {
+        // Two of them around a circle, as far apart that their product is exact; without a shift of energy.
+        const System system = onLine(-30, 30, 256, 1);
+        const Value psi = Value::Object{{"packet", "dark-soliton-pair"}, {"velocity", 0.4}};
+        const State start = startOf(system, psi);
+        const std::vector<double> known = system.start({"", {{"psi", psi}, {"normalise", false}}, {}}, 4);
+        struct Row {
+            int degree, steps;
+            double first, second;
+        };
+        for (const Row& row : {Row{1, 40, 9.63e-2, 0}, {2, 40, 2.46e-5, 1.54e-6}, {3, 20, 1.64e-7, 2.6e-9}}) {
+            double errors[2];
+            for (const int run : {0, 1}) {
+                State state = start;
+                const int steps = row.steps << run;
+                const auto integrator = gaussOf(row.degree, 0)(system, 4.0 / steps);
+                for (int k = 0; k < steps; ++k)
+                    QCOMPARE(advance(*integrator, state).outcome, Outcome::converged);
+                double sum = 0;
+                for (std::size_t i = 0; i < known.size(); ++i)
+                    sum += (state.x[i] - known[i]) * (state.x[i] - known[i]);
+                errors[run] = std::sqrt(sum);
+                qInfo("degree %d, %d steps: %.3e", row.degree, steps, errors[run]);
+            }
+            QVERIFY(std::abs(std::log2(errors[0] / errors[1]) - 2 * row.degree) < 0.15);
+            QVERIFY(std::abs(errors[0] / row.first - 1) < 0.03);
+            if (row.second > 0) QVERIFY(std::abs(errors[1] / row.second - 1) < 0.03);
+        }
+        const auto refusal = [&](double g, const Value& other) {
+            try {
+                startOf(onLine(-30, 30, 64, g), other);
+            } catch (const InvalidScene& e) {
+                return e.problems().front().pointer;
+            }
+            return std::string();
+        };
+        QCOMPARE(refusal(-1, psi), std::string("/psi/packet"));
+        QCOMPARE(refusal(1, Value::Object{{"packet", "dark-soliton-pair"}, {"velocity", 1.1}}),
+                 std::string("/psi/velocity"));
+        QVERIFY(!system.exactFrom({"", {{"psi", psi}}, {}}, start));
     }
     void errorsWithoutAShiftAreThoseOfTheTable() {
         const System system = onLine(-30, 30, 2048, -1);
