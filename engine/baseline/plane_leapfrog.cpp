@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "engine/family/field_march.hpp"
@@ -22,8 +23,8 @@ public:
           slope_(n()) {
         const wave::Grid& grid = problem_->grid();
         const double dx = grid.x.length / grid.nx, dy = grid.y.length / grid.ny;
-        perX_ = problem_->stiffness() / (dx * dx);
-        perY_ = problem_->stiffness() / (dy * dy);
+        perX_ = 1 / (dx * dx);
+        perY_ = grid.dimension() > 1 ? 1 / (dy * dy) : 0;
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<PlaneLeapfrog>(*this); }
     bool checkpoint(Archive& archive) override {
@@ -45,23 +46,28 @@ private:
         return Outcome::converged;
     }
     void evaluate(const double* u, StepReport& report) {
-        problem_->potential().evaluate(u, n(), nullptr, slope_.data(), nullptr);
+        problem_->potential().evaluate(u, nodes(), nodes(), nullptr, slope_.data(), nullptr);
         addDifferences(u, slope_.data(), force_.data());
         std::copy_n(u, n(), of_.begin());
         isKnown_ = true;
         report.cost.evaluations += static_cast<long long>(n());
     }
+    std::size_t nodes() const { return problem_->nodes(); }
     /// f = c^2 (D_x + D_y) u - slope.
     void addDifferences(const double* u, const double* slope, double* f) const {
+        for (std::size_t c = 0; c < problem_->components(); ++c)
+            addDifferences(problem_->stiffness(c), u + c * nodes(), slope + c * nodes(), f + c * nodes());
+    }
+    void addDifferences(double stiffness, const double* u, const double* slope, double* f) const {
         const auto nx = static_cast<std::size_t>(problem_->grid().nx),
                    ny = static_cast<std::size_t>(problem_->grid().ny);
-        const double both = 2 * (perX_ + perY_);
+        const double perX = stiffness * perX_, perY = stiffness * perY_, both = 2 * (perX + perY);
         for (std::size_t j = 0; j < ny; ++j) {
             const double *const row = u + j * nx, *const below = u + (j == 0 ? ny - 1 : j - 1) * nx,
                                 *const above = u + (j + 1 == ny ? 0 : j + 1) * nx, *const s = slope + j * nx;
             double* const to = f + j * nx;
             const auto at = [&](std::size_t i, double left, double right) {
-                to[i] = perX_ * (left + right) + perY_ * (below[i] + above[i]) - both * row[i] - s[i];
+                to[i] = perX * (left + right) + perY * (below[i] + above[i]) - both * row[i] - s[i];
             };
             at(0, row[nx - 1], row[1]);
             for (std::size_t i = 1; i + 1 < nx; ++i) at(i, row[i - 1], row[i + 1]);
@@ -74,18 +80,26 @@ private:
         std::vector<double> after(2 * n());
         StepReport ignored;
         if (step(before().data(), after.data(), ignored) != Outcome::converged) return false;
-        atStart_.resize(n());
-        atEnd_.resize(n());
-        problem_->potential().evaluate(before().data(), n(), nullptr, nullptr, atStart_.data());
-        problem_->potential().evaluate(after.data(), n(), nullptr, nullptr, atEnd_.data());
+        const std::size_t m = problem_->components();
+        for (const auto& [state, curvature] : {std::pair{&before(), &atStart_}, {&after, &atEnd_}}) {
+            curvature->resize(m * (m + 1) / 2 * nodes());
+            problem_->potential().evaluate(state->data(), nodes(), nodes(), nullptr, nullptr,
+                                           curvature->data());
+        }
         return true;
     }
     /// Momenta are dx dy v.
     void vary(std::vector<double>& du, std::vector<double>& dp) override {
-        const double mass = problem_->grid().measure() / static_cast<double>(n());
+        const double mass = problem_->grid().measure() / static_cast<double>(nodes());
         const auto kick = [&](const std::vector<double>& curvature) {
-            std::vector<double> slope(n()), f(n());
-            for (std::size_t i = 0; i < n(); ++i) slope[i] = curvature[i] * du[i];
+            std::vector<double> slope(n(), 0), f(n());
+            const double* W = curvature.data();
+            for (std::size_t c = 0; c < problem_->components(); ++c)
+                for (std::size_t d = 0; d <= c; ++d, W += nodes())
+                    for (std::size_t i = 0; i < nodes(); ++i) {
+                        slope[c * nodes() + i] += W[i] * du[d * nodes() + i];
+                        if (d < c) slope[d * nodes() + i] += W[i] * du[c * nodes() + i];
+                    }
             addDifferences(du.data(), slope.data(), f.data());
             for (std::size_t i = 0; i < n(); ++i) dp[i] += h() / 2 * mass * f[i];
         };
@@ -95,7 +109,7 @@ private:
     }
 
     std::shared_ptr<const PlaneFieldProblem> problem_;
-    double perX_ = 0, perY_ = 0;  ///< c^2/dx^2, c^2/dy^2
+    double perX_ = 0, perY_ = 0;  ///< 1/dx^2, 1/dy^2; of a line 0
     bool isKnown_ = false;
     std::vector<double> force_, of_, slope_;  ///< f, the values it belongs to, W'
     std::vector<double> atStart_, atEnd_;     ///< W'' at the ends of the last step
@@ -110,9 +124,18 @@ std::unique_ptr<Integrator> makePlaneLeapfrog(const System& system, double step)
 double planeLeapfrogLimit(const PlaneFieldProblem& problem, const double* u) {
     const wave::Grid& grid = problem.grid();
     const double dx = grid.x.length / grid.nx, dy = grid.y.length / grid.ny;
-    const auto [low, high] = std::minmax_element(u, u + problem.size());
-    const double curvature = std::max(0.0, problem.potential().largestCurvature(*low, *high));
-    return 2 / std::sqrt(4 * problem.stiffness() * (1 / (dx * dx) + 1 / (dy * dy)) + curvature);
+    std::vector<double> low, high;
+    double stiffness = 0;
+    for (std::size_t c = 0; c < problem.components(); ++c) {
+        const double* const first = u + c * problem.nodes();
+        const auto [least, most] = std::minmax_element(first, first + problem.nodes());
+        low.push_back(*least);
+        high.push_back(*most);
+        stiffness = std::max(stiffness, problem.stiffness(c));
+    }
+    const double curvature = std::max(0.0, problem.potential().largestCurvature(low, high)),
+                 perY = grid.dimension() > 1 ? 1 / (dy * dy) : 0;
+    return 2 / std::sqrt(4 * stiffness * (1 / (dx * dx) + perY) + curvature);
 }
 
 }  // namespace extremal

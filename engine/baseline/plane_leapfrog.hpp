@@ -4,7 +4,8 @@
 ///
 ///     v' = v + h/2 f(u),   u+ = u + h v',   v+ = v' + h/2 f(u+),
 ///     f = c^2 (D_x + D_y) u - W'(u),  D second differences.
-/// Explicit, of order 2, multisymplectic; stable where h^2 (4 c^2 (1/dx^2 + 1/dy^2) + W'') <= 4.
+/// component by component. Explicit, of order 2, multisymplectic; stable where h^2 (4 c^2 (1/dx^2 + 1/dy^2)
+/// + W'') <= 4, with the largest c and the largest eigenvalue of W''.
 #pragma once
 
 #include <memory>

@@ -9,7 +9,8 @@
 
 namespace extremal {
 
-/// Of fields, then of wave functions; `needs` says which. Both have a `plane-wave`.
+/// Of fields over a line, over rectangles, then of wave functions; `needs` says which. All have a
+/// `plane-wave`.
 const std::vector<CatalogItem>& profileCatalog();
 
 }  // namespace extremal

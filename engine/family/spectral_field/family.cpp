@@ -21,6 +21,7 @@
 #include "engine/family/spectral_field/spectral_step.hpp"
 #include "engine/model/field/field_system.hpp"
 #include "engine/model/plane_field/problem.hpp"
+#include "engine/model/plane_field/settings.hpp"
 
 namespace extremal::family {
 namespace {
@@ -50,16 +51,17 @@ SpaceEntry fourierField() {
     return e;
 }
 
-const FieldPotential& potentialOf(const System& system) {
+/// The degree of W as a polynomial; 0: it is none.
+int degreeOf(const System& system) {
     const auto* const plane = system.parts.find<PlaneField>();
-    return plane ? plane->problem->potential() : system.fieldProblem().potential;
+    return plane ? plane->problem->potential().degree() : system.fieldProblem().potential.degree();
 }
 
 /// M of the key `nodes`, along an axis with these modes; 0: it cannot be.
-int nodesOf(const Settings& space, int modes, const FieldPotential& potential) {
+int nodesOf(const Settings& space, int modes, int degree) {
     const Value* const nodes = space.find("nodes");
     if (!nodes || *nodes == Value("same")) return modes;
-    if (*nodes == Value("exact")) return std::max(modes, (potential.degree() * modes + 1) / 2);
+    if (*nodes == Value("exact")) return std::max(modes, (degree * modes + 1) / 2);
     const double number = nodes->isNumber() ? nodes->asNumber() : 0;
     const bool isPossible = number >= modes && number <= 8.0 * mostModes && number == std::round(number);
     return isPossible ? static_cast<int>(number) : 0;
@@ -113,23 +115,32 @@ bool isSpectral(const System& system) {
 }
 
 /// Whether W is a polynomial, where `exact` asks for it.
-std::optional<Problem> refusalOfExact(const Settings& space, const FieldPotential& potential) {
+std::optional<Problem> refusalOfExact(const Settings& space, int degree) {
     const Value* const nodes = space.find("nodes");
-    if (!nodes || *nodes != Value("exact") || potential.degree() > 0) return {};
+    if (!nodes || *nodes != Value("exact") || degree > 0) return {};
     return Problem{"/space/nodes",
                    "exact is for W(u) that is a polynomial of degree 12 or less, and that of this model is "
                    "not",
                    "\"same\", or a number of nodes"};
 }
 
+/// Fewer nodes than modes.
+std::optional<Problem> refusalOfFewNodes(const Settings& space, int modes, int degree) {
+    if (nodesOf(space, modes, degree) > 0) return {};
+    return Problem{"/space/nodes", "must be at least the number of modes, " + std::to_string(modes),
+                   std::to_string(2 * modes)};
+}
+
 std::optional<Problem> refusalOf(const Discretization& d, const PlaneFieldProblem& problem) {
-    if (d.space.find("modes") && d.space.integer("modes") > 0)
+    const bool isLine = problem.grid().dimension() == 1;
+    if (!isLine && d.space.find("modes") && d.space.integer("modes") > 0)
         return Problem{"/space/modes",
                        "is for the line: over a rectangle the nodes of the model are the modes",
                        "cells and cells_y of the model"};
-    if (const Value* nodes = d.space.find("nodes"); nodes && nodes->isNumber())
+    if (const Value* nodes = d.space.find("nodes"); !isLine && nodes && nodes->isNumber())
         return Problem{"/space/nodes", "must be \"same\" or \"exact\" over a rectangle", "same"};
-    return refusalOfExact(d.space, problem.potential());
+    if (const auto refusal = refusalOfExact(d.space, problem.potential().degree())) return refusal;
+    return refusalOfFewNodes(d.space, problem.grid().nx, problem.potential().degree());
 }
 
 /// Why a field cannot have the modes; nothing where it can.
@@ -149,10 +160,8 @@ std::optional<Problem> refusalOf(const Discretization& d, const FieldProblem& pr
                        "takes as many modes as the model has cells, " + std::to_string(problem.size()) +
                            ", and not " + std::to_string(leastModes) + " to " + std::to_string(mostModes),
                        "\"modes\" in the space"};
-    if (const auto refusal = refusalOfExact(d.space, problem.potential)) return refusal;
-    if (nodesOf(d.space, problem.size(), problem.potential) > 0) return {};
-    return Problem{"/space/nodes", "must be at least the number of modes, " + std::to_string(problem.size()),
-                   std::to_string(2 * problem.size())};
+    if (const auto refusal = refusalOfExact(d.space, problem.potential.degree())) return refusal;
+    return refusalOfFewNodes(d.space, problem.size(), problem.potential.degree());
 }
 
 std::optional<Problem> refusalOf(const Discretization& d, const System& system) {
@@ -179,6 +188,8 @@ std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
     if (model.type != "field" || model.text("boundary") != "periodic" ||
         (model.find("a") && model.text("a") != "1"))
         return {};
+    // Several components are on the nodes of the model, unless there are other modes.
+    if (!space.find("modes") && componentNames(model) != std::vector<std::string>{"u"}) return {};
     Settings own = model;
     for (auto& [key, value] : own.keys)
         if (key == "cells" && space.find("modes")) value = static_cast<double>(space.integer("modes"));
@@ -189,7 +200,7 @@ std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
 ChoiceGrid choices(const System& system) {
     ChoiceGrid grid;
     grid.subtitle = "nodes × degree in time";
-    const bool isPolynomial = potentialOf(system).degree() > 2;
+    const bool isPolynomial = degreeOf(system) > 2;
     for (const int s : {1, 2, 3, 4, 6, 8})
         grid.columns.push_back({"G " + std::to_string(s), "degree " + std::to_string(s) + " in time"});
     for (const char* nodes : {"same", "exact"}) {
@@ -226,8 +237,9 @@ std::unique_ptr<Integrator> makeSpectral(const System& system, const Discretizat
     const SpectralDomain domain = spectralDomainOf(system);
     SpectralScheme scheme;
     scheme.degree = d.space.integer("degree");
-    scheme.nodes = nodesOf(d.space, domain.nx, domain.potential);
-    scheme.nodesY = nodesOf(d.space, domain.ny, domain.potential);
+    const int degreeOfW = domain.potential.degree();
+    scheme.nodes = nodesOf(d.space, domain.nx, degreeOfW);
+    scheme.nodesY = nodesOf(d.space, domain.ny, degreeOfW);
     scheme.tolerance = d.solver.number("tolerance");
     scheme.maxIterations = d.solver.integer("max_iterations");
     return makeSpectralField(domain, scheme, step);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/family/field_march.hpp"
 #include "engine/model/field/spectral_grid.hpp"
 #include "engine/family/spectral_field/stage_tables.hpp"
@@ -19,20 +20,24 @@ namespace {
 class SpectralField final : public FieldMarch {
 public:
     SpectralField(const SpectralDomain& domain, const SpectralScheme& scheme, double step)
-        : FieldMarch(static_cast<std::size_t>(domain.nx) * static_cast<std::size_t>(domain.ny), step),
+        : FieldMarch(domain.potential.components() * static_cast<std::size_t>(domain.nx) *
+                         static_cast<std::size_t>(domain.ny),
+                     step),
           domain_(domain),
           scheme_(scheme),
-          shift_(domain.potential.meanCurvature()),
+          components_(domain.potential.components()),
+          shifts_(domain.potential.meanCurvatures()),
           stages_(static_cast<std::size_t>(scheme.degree)),
           grid_(domain.nx, domain.ny, scheme.nodes, domain.ny > 1 ? scheme.nodesY : 1),
           points_(grid_.points()),
-          width_(StageTables::widthOf(grid_.modes())) {
+          stride_((points_ + Lanes::size - 1) / Lanes::size * Lanes::size),
+          width_(StageTables::widthOf(components_ * grid_.modes())) {
         known_.resize(2 * n());
         for (auto* row : {&U_, &V_, &dU_, &dV_}) row->resize(width_);
         for (auto* rows : {&G_, &before_, &Y_}) rows->resize(width_ * stages_);
-        for (auto* rows : {&u_, &varied_}) rows->resize(points_ * stages_);
-        values_.resize(points_);
-        slope_.resize(points_);
+        for (auto* rows : {&u_, &varied_}) rows->resize(components_ * stride_ * stages_);
+        values_.resize(components_ * stride_);
+        slope_.resize(components_ * stride_);
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<SpectralField>(*this); }
     bool checkpoint(Archive& archive) override {
@@ -46,11 +51,12 @@ private:
         const double turn = 2 * std::numbers::pi, baseX = turn / domain_.lengthX,
                      baseY = turn / domain_.lengthY;
         std::vector<double> stiffness;
-        for (int l = 0; l < domain_.ny; ++l)
-            for (int k = 0; k <= domain_.nx / 2; ++k) {
-                const double K = baseX * k, L = baseY * (2 * l > domain_.ny ? l - domain_.ny : l);
-                stiffness.push_back(domain_.stiffness * (K * K + L * L) + shift_);
-            }
+        for (std::size_t c = 0; c < components_; ++c)
+            for (int l = 0; l < domain_.ny; ++l)
+                for (int k = 0; k <= domain_.nx / 2; ++k) {
+                    const double K = baseX * k, L = baseY * (2 * l > domain_.ny ? l - domain_.ny : l);
+                    stiffness.push_back(domain_.stiffness[c] * (K * K + L * L) + shifts_[c]);
+                }
         tables_ = StageTables(gauss<double>(scheme_.degree), h(), stiffness);
         isKnown_ = false;  // G of another step does not help
     }
@@ -60,21 +66,35 @@ private:
             before_.swap(G_);
             tables_.extrapolate(before_.data(), G_.data());
         } else {
-            grid_.toModes(x, U_.data());
-            grid_.toModes(x + size, V_.data());
+            toModes(x, U_.data());
+            toModes(x + size, V_.data());
             std::fill(G_.begin(), G_.end(), 0.0);
         }
         isKnown_ = false;  // until the step is done
         const Outcome solved = iterate(U_.data(), V_.data(), u_, report, [this](std::size_t) {
-            domain_.potential.evaluate(values_.data(), points_, nullptr, slope_.data(), nullptr);
+            domain_.potential.evaluate(values_.data(), points_, stride_, nullptr, slope_.data(), nullptr);
         });
         if (solved != Outcome::converged) return solved;
         tables_.toEnd(G_.data(), U_.data(), V_.data());
-        grid_.toNodes(U_.data(), next);
-        grid_.toNodes(V_.data(), next + size);
+        toNodes(U_.data(), next);
+        toNodes(V_.data(), next + size);
         std::copy_n(next, 2 * size, known_.data());
         isKnown_ = true;
         return Outcome::converged;
+    }
+
+    void toModes(const double* nodes, double* row) {
+        for (std::size_t c = 0; c < components_; ++c)
+            grid_.toModes(nodes + c * grid_.nodes(), row + 2 * c * grid_.modes());
+    }
+    void toNodes(const double* row, double* nodes) {
+        for (std::size_t c = 0; c < components_; ++c)
+            grid_.toNodes(row + 2 * c * grid_.modes(), nodes + c * grid_.nodes());
+    }
+    double squareOf(const double* row) const {
+        double sum = 0;
+        for (std::size_t c = 0; c < components_; ++c) sum += grid_.squareOf(row + 2 * c * grid_.modes());
+        return sum;
     }
 
     /// Stages from U and V: G_ <- w u - R(u), until they change no more. `rest` makes slope_ = R of values_
@@ -83,7 +103,7 @@ private:
     Outcome iterate(const double* U, const double* V, std::vector<double>& stages, StepReport& report,
                     Rest&& rest) {
         constexpr double roundOff = 1e-14, stagnation = 1e-11;
-        const double size = std::sqrt(grid_.squareOf(U)) + std::abs(h()) * std::sqrt(grid_.squareOf(V)),
+        const double size = std::sqrt(squareOf(U)) + std::abs(h()) * std::sqrt(squareOf(V)),
                      tolerance = scheme_.tolerance > 0 ? scheme_.tolerance : roundOff;
         const int most = scheme_.maxIterations > 0 ? scheme_.maxIterations : 100;
         double last = 0;
@@ -93,8 +113,11 @@ private:
             tables_.toStages(U, V, G_.data(), Y_.data());
             double squares = 0;
             for (std::size_t i = 0; i < stages_; ++i) {
-                grid_.toPoints(Y_.data() + i * width_, values_.data());
-                squares += replace(stages.data() + i * points_);
+                for (std::size_t c = 0; c < components_; ++c) {
+                    double* const values = values_.data() + c * stride_;
+                    grid_.toPoints(Y_.data() + i * width_ + 2 * c * grid_.modes(), values);
+                    squares += replace(values, stages.data() + (i * components_ + c) * stride_);
+                }
                 rest(i);
                 forceToModes(G_.data() + i * width_);
             }
@@ -109,65 +132,83 @@ private:
         }
         return Outcome::diverged;
     }
-    /// The sum of squares of the changes; the stage is what values_ are now.
-    double replace(double* stage) const {
+    /// The sum of squares of the changes of a component; the stage is what its values are now.
+    double replace(const double* values, double* stage) const {
         double sum[4] = {0, 0, 0, 0};  // which do not wait for each other
         std::size_t i = 0;
         for (; i + 4 <= points_; i += 4)
             for (std::size_t k = 0; k < 4; ++k) {
-                const double d = values_[i + k] - stage[i + k];
+                const double d = values[i + k] - stage[i + k];
                 sum[k] += d * d;
             }
-        for (; i < points_; ++i) sum[0] += (values_[i] - stage[i]) * (values_[i] - stage[i]);
-        std::copy_n(values_.data(), points_, stage);
+        for (; i < points_; ++i) sum[0] += (values[i] - stage[i]) * (values[i] - stage[i]);
+        std::copy_n(values, points_, stage);
         return (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
     void forceToModes(double* row) {
         const double scale = 1 / static_cast<double>(points_);
-        for (std::size_t i = 0; i < points_; ++i) values_[i] = scale * (shift_ * values_[i] - slope_[i]);
-        grid_.fromPoints(values_.data(), row);
+        for (std::size_t c = 0; c < components_; ++c) {
+            double* const values = values_.data() + c * stride_;
+            const double* const slope = slope_.data() + c * stride_;
+            for (std::size_t i = 0; i < points_; ++i) values[i] = scale * (shifts_[c] * values[i] - slope[i]);
+            grid_.fromPoints(values, row + 2 * c * grid_.modes());
+        }
     }
 
     bool hasVariations() const override { return true; }
     /// W'' at the stages of the last step, which are still there.
     bool linearise() override {
-        curvature_.resize(u_.size());
-        domain_.potential.evaluate(u_.data(), u_.size(), nullptr, nullptr, curvature_.data());
+        const std::size_t rows = components_ * (components_ + 1) / 2;
+        curvature_.resize(rows * stride_ * stages_);
+        for (std::size_t i = 0; i < stages_; ++i)
+            domain_.potential.evaluate(u_.data() + i * components_ * stride_, points_, stride_, nullptr,
+                                       nullptr, curvature_.data() + i * rows * stride_);
         return isKnown_;
+    }
+    /// slope_ <- W'' values_ at stage i.
+    void applyCurvature(std::size_t i) {
+        const double* curvature = curvature_.data() + i * components_ * (components_ + 1) / 2 * stride_;
+        std::fill(slope_.begin(), slope_.end(), 0.0);
+        for (std::size_t c = 0; c < components_; ++c)
+            for (std::size_t d = 0; d <= c; ++d, curvature += stride_)
+                for (std::size_t j = 0; j < points_; ++j) {
+                    slope_[c * stride_ + j] += curvature[j] * values_[d * stride_ + j];
+                    if (d < c) slope_[d * stride_ + j] += curvature[j] * values_[c * stride_ + j];
+                }
     }
     /// The equations of the step are those of a variation with W'' u in place of W'(u); momenta are dx v, of
     /// a rectangle dx dy v.
     void vary(std::vector<double>& du, std::vector<double>& dp) override {
-        const double mass = domain_.lengthX * domain_.lengthY / static_cast<double>(n());
+        const double mass = domain_.lengthX * domain_.lengthY / static_cast<double>(grid_.nodes());
         for (double& each : dp) each /= mass;
-        grid_.toModes(du.data(), dU_.data());
-        grid_.toModes(dp.data(), dV_.data());
+        toModes(du.data(), dU_.data());
+        toModes(dp.data(), dV_.data());
         before_.swap(G_);  // G of the step stays for the next one
         std::fill(G_.begin(), G_.end(), 0.0);
         StepReport report;
-        (void)iterate(dU_.data(), dV_.data(), varied_, report, [this](std::size_t i) {
-            const double* const curvature = curvature_.data() + i * points_;
-            for (std::size_t j = 0; j < points_; ++j) slope_[j] = curvature[j] * values_[j];
-        });
+        (void)iterate(dU_.data(), dV_.data(), varied_, report, [this](std::size_t i) { applyCurvature(i); });
         tables_.toEnd(G_.data(), dU_.data(), dV_.data());
         before_.swap(G_);
-        grid_.toNodes(dU_.data(), du.data());
-        grid_.toNodes(dV_.data(), dp.data());
+        toNodes(dU_.data(), du.data());
+        toNodes(dV_.data(), dp.data());
         for (double& each : dp) each *= mass;
     }
 
     SpectralDomain domain_;
     SpectralScheme scheme_;
-    double shift_;
+    std::size_t components_;
+    std::vector<double> shifts_;  ///< w of each component
     std::size_t stages_;
     SpectralGrid grid_;
-    std::size_t points_, width_;
+    std::size_t points_, stride_;  ///< from one component to the next: each begins where arrays are aligned
+    std::size_t width_;
     StageTables tables_;
     bool isKnown_ = false;
     std::vector<double> known_;       ///< the values that U_ and V_ belong to
     std::vector<double> U_, V_;       ///< modes of u and u_t
     std::vector<double> G_, before_;  ///< of the stages, and of those of the last step
-    std::vector<double> Y_, u_;       ///< stages: modes, and values at the points
+    /// Stages: modes, component after component in a row, and values at the points.
+    std::vector<double> Y_, u_;
     std::vector<double> values_, slope_;
     std::vector<double> dU_, dV_, varied_, curvature_;  ///< of variations
 };
@@ -177,10 +218,13 @@ private:
 SpectralDomain spectralDomainOf(const System& system) {
     if (const auto* const plane = system.parts.find<PlaneField>()) {
         const PlaneFieldProblem& p = *plane->problem;
-        return {p.grid().nx, p.grid().ny, p.grid().x.length, p.grid().y.length, p.stiffness(), p.potential()};
+        std::vector<double> stiffness;
+        for (std::size_t c = 0; c < p.components(); ++c) stiffness.push_back(p.stiffness(c));
+        return {p.grid().nx,       p.grid().ny,          p.grid().x.length,
+                p.grid().y.length, std::move(stiffness), p.potential()};
     }
     const FieldProblem& p = system.fieldProblem();
-    return {p.size(), 1, p.mesh.length(), 1, p.elastic.k, p.potential};
+    return {p.size(), 1, p.mesh.length(), 1, {p.elastic.k}, p.potential};
 }
 
 std::unique_ptr<Integrator> makeSpectralField(const SpectralDomain& domain, const SpectralScheme& scheme,

@@ -11,14 +11,16 @@
 ///     u'' = -(c^2 k^2 + w) u + G,   G = w u - W'(u),   w: the mean of W'' over |u| <= 1, which changes the
 ///                                                       equations in nothing, and makes the rest small.
 /// Over a rectangle |u_x|^2 + |u_y|^2, M nodes along each axis, and p N/2 of them make the sum exact as well.
+/// Of several components each has its own modes, c and w, and they meet in the gradient of W.
 /// It starts from G of the last step, extrapolated. With 2 s real transforms per iteration nothing is
 /// factorised in a step.
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "engine/integrator/integrator.hpp"
-#include "engine/model/field/potential.hpp"
+#include "engine/model/plane_field/joint_potential.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal {
@@ -35,8 +37,8 @@ struct SpectralScheme {
 struct SpectralDomain {
     int nx = 0, ny = 1;
     double lengthX = 0, lengthY = 1;
-    double stiffness = 1;  ///< c^2
-    FieldPotential potential;
+    std::vector<double> stiffness;  ///< c^2 of each component
+    JointPotential potential;
 };
 SpectralDomain spectralDomainOf(const System& system);
 

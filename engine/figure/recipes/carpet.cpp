@@ -124,7 +124,11 @@ Figure makeCarpet(const FigureContext& context) {
         const std::string most = " · at most " + shortNumber(figure.heat()->high);
         if (!figure.heat()->hues.empty()) figure.subtitle = "|ψ|, the colour is its phase" + most;
         if (!own.isComplex) figure.subtitle = "u" + most;
-        if (!own.y.empty()) figure.subtitle = (own.isComplex ? "√∫|ψ|² dy" : "√∫u² dy") + most;
+        if (!own.y.empty())
+            figure.subtitle = (!own.isComplex                   ? "√∫u² dy"
+                               : own.components.front() == "re" ? "√∫|ψ|² dy"
+                                                                : "√∫|u|² dy") +
+                              most;
     } else if (context.system && !context.system->field) {
         figure.message = "The model is not a field";
     }

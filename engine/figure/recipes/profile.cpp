@@ -17,17 +17,26 @@ enum class Part { modulus, real, imaginary };
 
 struct Shown {
     Part part;
-    const char* symbol;
+    std::string symbol;
+    std::size_t component = 0;  ///< the real part's
 };
 
 /// The curves of each scheme, the first in its own colour, a second one pale.
-std::vector<Shown> shownParts(const View& view) {
-    constexpr Shown real{Part::real, "Re ψ"}, imaginary{Part::imaginary, "Im ψ"};
+std::vector<Shown> shownParts(const View& view, const FieldSampling& field) {
+    const std::vector<std::string>& names = field.components;
+    const auto chosen = std::find(names.begin(), names.end(), view.keys.text("component"));
+    const auto component = static_cast<std::size_t>(chosen - names.begin());
+    if (chosen != names.end() && field.isComplex && component == 1) return {{Part::imaginary, *chosen}};
+    if (chosen != names.end()) return {{Part::real, *chosen, component}};
+    if (!field.isComplex) return {{Part::real, names.front()}};
+    const bool isWave = names.front() == "re";
+    const Shown real{Part::real, isWave ? "Re ψ" : names[0]},
+        imaginary{Part::imaginary, isWave ? "Im ψ" : names[1]};
     const std::string part = view.keys.text("part");
     if (part == "real") return {real};
     if (part == "imaginary") return {imaginary};
     if (part == "both") return {real, imaginary};
-    return {{Part::modulus, "|ψ|"}};
+    return {{Part::modulus, isWave ? "|ψ|" : "|" + names[0] + " + i " + names[1] + "|"}};
 }
 
 double valueOf(Part part, double re, double im) {
@@ -95,8 +104,10 @@ void addExact(Figure& figure, const FigureContext& context, double t) {
 }
 
 /// The modulus with the phase as its colour, or one part.
-HeatMap heatOver(const FieldSampling& field, const std::vector<double>& values, Part part) {
+HeatMap heatOver(const FieldSampling& field, const std::vector<double>& all, const Shown& shown) {
     const std::size_t n = field.places();
+    const double* const values = all.data() + shown.component * n;
+    const Part part = shown.part;
     HeatMap heat;
     heat.columns = static_cast<int>(field.x.size());
     heat.rows = static_cast<int>(field.y.size());
@@ -108,7 +119,7 @@ HeatMap heatOver(const FieldSampling& field, const std::vector<double>& values, 
     for (int column = 0; column < heat.columns; ++column)
         for (int row = 0; row < heat.rows; ++row) {
             const auto j = static_cast<std::size_t>(column + row * heat.columns);
-            heat.values.push_back(valueOf(part, values[j], values[n + j]));
+            heat.values.push_back(part == Part::real ? values[j] : valueOf(part, values[j], values[n + j]));
             if (part == Part::modulus)
                 heat.hues.push_back(std::atan2(values[n + j], values[j]) / (2 * std::numbers::pi));
         }
@@ -123,17 +134,17 @@ Figure makePlaneProfile(const FigureContext& context) {
     figure.y.title = "y";
     figure.aspect = Aspect::equal;
     const FieldSampling& field = context.system->field;
-    const Shown shown = field.isComplex ? shownParts(context.view).front() : Shown{Part::real, "u"};
+    const Shown shown = shownParts(context.view, field).front();
     if (const SchemeResult* scheme =
             schemeOf(context, [](const SchemeResult& s) { return framesOf(s) != nullptr; })) {
         const Frame& last = framesOf(*scheme)->back();
         figure.title = "Profile of " + scheme->spec.label;
-        figure.add(heatOver(field, *last.values, shown.part));
+        figure.add(heatOver(field, *last.values, shown));
         figure.x.range = {figure.heat()->left, figure.heat()->right};
         figure.y.range = {figure.heat()->bottom, figure.heat()->top};
-        figure.subtitle = std::string(shown.symbol) +
-                          (shown.part == Part::modulus ? ", the colour is its phase" : "") + " · at most " +
-                          shortNumber(figure.heat()->high) + " · at t = " + shortNumber(last.t, 4);
+        figure.subtitle = shown.symbol + (shown.part == Part::modulus ? ", the colour is its phase" : "") +
+                          " · at most " + shortNumber(figure.heat()->high) +
+                          " · at t = " + shortNumber(last.t, 4);
     }
     finishFigure(figure, context, "Profile over the plane");
     return figure;
@@ -143,9 +154,14 @@ Figure makeProfile(const FigureContext& context) {
     if (context.system && !context.system->field.y.empty()) return makePlaneProfile(context);
     Figure figure = startFigure(context, "Profile");
     figure.x.title = "x";
-    const bool isComplex = context.system && context.system->field.isComplex;
-    const std::vector<Shown> parts = isComplex ? shownParts(context.view) : std::vector<Shown>(1);
-    figure.y.title = !isComplex ? "u" : parts.size() > 1 ? "ψ" : parts.front().symbol;
+    const bool isField = context.system && context.system->field;
+    const std::vector<Shown> parts =
+        isField ? shownParts(context.view, context.system->field) : std::vector<Shown>(1);
+    const bool isComplex = isField && context.system->field.isComplex;
+    const bool isWave = isComplex && context.system->field.components.front() == "re";
+    figure.y.title = parts.size() == 1 ? parts.front().symbol
+                     : isWave          ? "ψ"
+                                       : parts[0].symbol + ", " + parts[1].symbol;
     double height = 0;
     for (const auto& scheme : context.comparison.schemes) {
         if (!context.system || !context.system->field || !framesOf(*scheme)) continue;
@@ -161,13 +177,14 @@ Figure makeProfile(const FigureContext& context) {
             if (parts.size() > 1) s.part = shown.symbol;
             if (&shown != &parts.front()) s.tone = Tone::pale;
             for (std::size_t j = 0; j < s.x.size(); ++j)
-                s.y.push_back(isComplex ? valueOf(shown.part, re[j], im[j]) : re[j]);
+                s.y.push_back(shown.part == Part::real ? re[shown.component * n + j]
+                                                       : valueOf(shown.part, re[j], im[j]));
             height = std::max(height, maxMagnitude(s.y));
             figure.add(std::move(s));
         }
         if (!isComplex || figure.series().size() > parts.size()) continue;
         figure.subtitle = "at t = " + shortNumber(framesOf(*scheme)->back().t, 4);
-        if (parts.size() > 1) figure.subtitle += ", Im ψ is pale";
+        if (parts.size() > 1) figure.subtitle += ", " + parts[1].symbol + " is pale";
     }
     if (context.system && !context.system->field) figure.message = "The model is not a field";
     if (context.system && context.system->field.isGraph && !figure.series().empty()) {

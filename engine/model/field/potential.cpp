@@ -105,29 +105,32 @@ double FieldPotential::operator()(double u) const {
     return value;
 }
 
-int FieldPotential::degree() const {
-    if (isLinear()) return 2;
-    if (kind_ == Kind::phi4) return 4;
-    if (kind_ == Kind::sineGordon) return 0;
+int polynomialDegree(const std::function<double(double)>& f) {
     constexpr int most = 12;
     constexpr std::size_t places = 2 * most + 2;
-    std::array<double, places> u{}, W{};
+    std::array<double, places> values{};
     for (std::size_t i = 0; i < places; ++i)
-        u[i] = 2 * std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / places);
-    evaluate(u.data(), places, W.data(), nullptr, nullptr);
+        values[i] = f(2 * std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / places));
     double size = 0;
-    for (const double each : W) size = std::max(size, std::abs(each));
+    for (const double each : values) size = std::max(size, std::abs(each));
     if (!std::isfinite(size)) return 0;
-    // Coefficients of Chebyshev's polynomials T_k(u/2): those above the degree are round-off.
+    // Coefficients of Chebyshev's polynomials T_k(s/2): those above the degree are round-off.
     int degree = 0;
     for (std::size_t k = 1; k < places; ++k) {
         double sum = 0;
         for (std::size_t i = 0; i < places; ++i)
-            sum += W[i] * std::cos(std::numbers::pi * static_cast<double>(k) *
-                                   (static_cast<double>(i) + 0.5) / places);
+            sum += values[i] * std::cos(std::numbers::pi * static_cast<double>(k) *
+                                        (static_cast<double>(i) + 0.5) / places);
         if (std::abs(2 * sum / places) > 1e-13 * size) degree = static_cast<int>(k);
     }
     return degree > most ? 0 : std::max(degree, 1);
+}
+
+int FieldPotential::degree() const {
+    if (isLinear()) return 2;
+    if (kind_ == Kind::phi4) return 4;
+    if (kind_ == Kind::sineGordon) return 0;
+    return polynomialDegree(*this);
 }
 
 double FieldPotential::meanCurvature() const {

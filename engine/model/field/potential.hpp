@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,6 +18,10 @@ namespace extremal {
 namespace typed {
 class TypedFunction;
 }
+
+/// The degree of a polynomial f(s) of degree 12 at most, where Chebyshev's coefficients of its values on |s|
+/// < 2 end there, to 1e-13; 0: it is no such polynomial.
+int polynomialDegree(const std::function<double(double)>& f);
 
 class FieldPotential {
 public:
@@ -35,8 +40,7 @@ public:
     void evaluate(const double* u, std::size_t n, double* W, double* slope, double* curvature) const;
     /// W at one value.
     double operator()(double u) const;
-    /// The degree of W where it is a polynomial of degree 12 at most: of a typed one where
-    /// Chebyshev's coefficients of its values on |u| < 2 end there, to 1e-13. 0: it is no such polynomial.
+    /// The degree of W where it is a polynomial of degree 12 at most, else 0.
     int degree() const;
     /// The mean of W'' over |u| <= 1, by 64 places; 0 where it is not positive and finite.
     double meanCurvature() const;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The System of a field over a rectangle: energy, momentum, start, exact motion of linear fields, samples
-/// and picture.
+/// The System of a field over a rectangle: energy, momenta, charges, start, exact motion of linear fields,
+/// samples and picture.
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "engine/model/plane_field/problem.hpp"
 #include "engine/model/system.hpp"
@@ -12,9 +11,5 @@
 namespace extremal {
 
 System makePlaneFieldSystem(std::shared_ptr<const PlaneFieldProblem> problem);
-
-/// The keys of /initial: `u` and `u_t`, expressions in x, y and in r, phi about the origin, or values at the
-/// nodes.
-std::vector<FieldInfo> planeFieldStartFields();
 
 }  // namespace extremal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/plane_field/problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -17,40 +18,51 @@ std::vector<double> nodesAlong(const wave::Domain& domain, int n) {
 
 }  // namespace
 
-PlaneFieldProblem::PlaneFieldProblem(const wave::Grid& grid, double speed, FieldPotential potential)
+PlaneFieldProblem::PlaneFieldProblem(const wave::Grid& grid, std::vector<FieldComponent> components,
+                                     JointPotential potential)
     : grid_(grid),
-      speed_(speed),
+      components_(std::move(components)),
       potential_(std::move(potential)),
       x_(nodesAlong(grid.x, grid.nx)),
-      y_(nodesAlong(grid.y, grid.ny)) {}
+      y_(nodesAlong(grid.y, grid.ny)) {
+    for (std::size_t b = 1; b < this->components(); ++b)
+        for (std::size_t a = 0; a < b; ++a)
+            if (speed(a) == speed(b) && potential_.turns(a, b)) turns_.emplace_back(a, b);
+}
 
 template <class F>
 void PlaneFieldProblem::forModes(const double* u, const double* v, F&& f) const {
     SpectralGrid ways(grid_.nx, grid_.ny, grid_.nx, grid_.ny);
     std::vector<double> U(2 * ways.modes()), V(2 * ways.modes());
-    ways.toModes(u, U.data());
-    ways.toModes(v, V.data());
     const int width = grid_.nx / 2 + 1;
-    for (int l = 0; l < grid_.ny; ++l)
-        for (int k = 0; k < width; ++k) {
-            const auto i = static_cast<std::size_t>(2 * (k + l * width));
-            f(k, 2 * l > grid_.ny ? l - grid_.ny : l, std::complex<double>(U[i], U[i + 1]),
-              std::complex<double>(V[i], V[i + 1]), k == 0 || 2 * k == grid_.nx ? 1 : 2);
-        }
+    for (std::size_t c = 0; c < components(); ++c) {
+        ways.toModes(u + c * nodes(), U.data());
+        ways.toModes(v + c * nodes(), V.data());
+        for (int l = 0; l < grid_.ny; ++l)
+            for (int k = 0; k < width; ++k) {
+                const auto i = static_cast<std::size_t>(2 * (k + l * width));
+                f(c, k, 2 * l > grid_.ny ? l - grid_.ny : l, std::complex<double>(U[i], U[i + 1]),
+                  std::complex<double>(V[i], V[i + 1]), k == 0 || 2 * k == grid_.nx ? 1 : 2);
+            }
+    }
 }
 
 double PlaneFieldProblem::energy(const double* state) const {
     const double turn = 2 * std::numbers::pi;
     double quadratic = 0;
-    forModes(state, state + size(), [&](int k, int l, auto u, auto v, int weight) {
+    forModes(state, state + size(), [&](std::size_t c, int k, int l, auto u, auto v, int weight) {
         const double K = turn * k / grid_.x.length, L = turn * l / grid_.y.length;
-        quadratic += weight * (std::norm(v) + stiffness() * (K * K + L * L) * std::norm(u)) / 2;
+        quadratic += weight * (std::norm(v) + stiffness(c) * (K * K + L * L) * std::norm(u)) / 2;
     });
-    SpectralGrid fine(grid_.nx, grid_.ny, 2 * grid_.nx, 2 * grid_.ny);
-    std::vector<double> U(2 * fine.modes()), u(fine.points()), W(fine.points());
-    fine.toModes(state, U.data());
-    fine.toPoints(U.data(), u.data());
-    potential_.evaluate(u.data(), u.size(), W.data(), nullptr, nullptr);
+    SpectralGrid fine(grid_.nx, grid_.ny, 2 * grid_.nx, grid_.ny > 1 ? 2 * grid_.ny : 1);
+    const std::size_t points = fine.points();
+    std::vector<double> U(2 * fine.modes()), values(points), u(components() * points), W(points);
+    for (std::size_t c = 0; c < components(); ++c) {
+        fine.toModes(state + c * nodes(), U.data());
+        fine.toPoints(U.data(), values.data());
+        std::copy(values.begin(), values.end(), u.begin() + static_cast<std::ptrdiff_t>(c * points));
+    }
+    potential_.evaluate(u.data(), points, points, W.data(), nullptr, nullptr);
     double sum = 0;
     for (const double each : W) sum += each;
     return grid_.measure() * (quadratic + sum / static_cast<double>(W.size()));
@@ -59,7 +71,7 @@ double PlaneFieldProblem::energy(const double* state) const {
 std::array<double, 2> PlaneFieldProblem::momentum(const double* state) const {
     const double turn = 2 * std::numbers::pi;
     std::array<double, 2> sum{};
-    forModes(state, state + size(), [&](int k, int l, auto u, auto v, int weight) {
+    forModes(state, state + size(), [&](std::size_t, int k, int l, auto u, auto v, int weight) {
         if (2 * k == grid_.nx || 2 * l == grid_.ny) return;
         const double both = weight * std::imag(u * std::conj(v));
         sum[0] += turn * k / grid_.x.length * both;
@@ -68,23 +80,68 @@ std::array<double, 2> PlaneFieldProblem::momentum(const double* state) const {
     return {grid_.measure() * sum[0], grid_.measure() * sum[1]};
 }
 
+double PlaneFieldProblem::angularMomentum(const double* state) const {
+    const double turn = 2 * std::numbers::pi, middleX = grid_.x.left + grid_.x.length / 2,
+                 middleY = grid_.y.left + grid_.y.length / 2;
+    SpectralGrid ways(grid_.nx, grid_.ny, grid_.nx, grid_.ny);
+    std::vector<double> U(2 * ways.modes()), slope(U.size()), along(nodes()), across(nodes());
+    const auto derivative = [&](bool isAlongX, std::vector<double>& values) {
+        const int width = grid_.nx / 2 + 1;
+        for (int l = 0; l < grid_.ny; ++l)
+            for (int k = 0; k < width; ++k) {
+                const auto i = static_cast<std::size_t>(2 * (k + l * width));
+                const bool isAlternating = 2 * k == grid_.nx || 2 * l == grid_.ny;
+                const double K = isAlternating ? 0
+                                 : isAlongX    ? turn * k / grid_.x.length
+                                            : turn * (2 * l > grid_.ny ? l - grid_.ny : l) / grid_.y.length;
+                slope[i] = -K * U[i + 1];
+                slope[i + 1] = K * U[i];
+            }
+        ways.toNodes(slope.data(), values.data());
+    };
+    double sum = 0;
+    for (std::size_t c = 0; c < components(); ++c) {
+        ways.toModes(state + c * nodes(), U.data());
+        derivative(true, along);
+        derivative(false, across);
+        const double* v = state + size() + c * nodes();
+        for (std::size_t j = 0, i = 0; j < y_.size(); ++j)
+            for (const double x : x_) {
+                sum -= v[i] * ((x - middleX) * across[i] - (y_[j] - middleY) * along[i]);
+                ++i;
+            }
+    }
+    return sum * grid_.measure() / static_cast<double>(nodes());
+}
+
+std::vector<double> PlaneFieldProblem::charges(const double* state) const {
+    std::vector<double> all;
+    for (const auto& [a, b] : turns_) {
+        const double *const u = state + a * nodes(), *const v = state + b * nodes();
+        double sum = 0;
+        for (std::size_t i = 0; i < nodes(); ++i) sum += u[i] * v[i + size()] - v[i] * u[i + size()];
+        all.push_back(sum * grid_.measure() / static_cast<double>(nodes()));
+    }
+    return all;
+}
+
 double PlaneFieldProblem::tail(const double* state) const {
     double upper = 0, all = 0;
-    forModes(state, state, [&](int k, int l, auto u, auto, int weight) {
+    forModes(state, state, [&](std::size_t, int k, int l, auto u, auto, int weight) {
         const double share = weight * std::norm(u);
         all += share;
-        if (16 * k >= 7 * grid_.nx || 16 * std::abs(l) >= 7 * grid_.ny) upper += share;
+        if (16 * k >= 7 * grid_.nx || (grid_.ny > 1 && 16 * std::abs(l) >= 7 * grid_.ny)) upper += share;
     });
     return all > 0 ? std::sqrt(upper / all) : 0;
 }
 
 void PlaneFieldProblem::removeAlternation(std::vector<double>& state) const {
     SpectralGrid ways(grid_.nx, grid_.ny, grid_.nx, grid_.ny);
-    std::vector<double> row(2 * ways.modes()), values(size());
-    for (const std::size_t first : {std::size_t{0}, size()}) {
+    std::vector<double> row(2 * ways.modes()), values(nodes());
+    for (std::size_t first = 0; first < state.size(); first += nodes()) {
         ways.toModes(state.data() + first, row.data());
         ways.toPoints(row.data(), values.data());
-        for (std::size_t i = 0; i < size(); ++i) state[first + i] = values[i];
+        for (std::size_t i = 0; i < nodes(); ++i) state[first + i] = values[i];
     }
 }
 

@@ -12,6 +12,8 @@
 #include "engine/model/field/field_system.hpp"
 #include "engine/model/field/moving_field.hpp"
 #include "engine/model/field/profile.hpp"
+#include "engine/model/plane_field/plane_field_system.hpp"
+#include "engine/model/plane_field/settings.hpp"
 #include "engine/model/typed/typed_function.hpp"
 
 namespace extremal::systems {
@@ -22,13 +24,16 @@ std::vector<FieldInfo> fieldParameters() {
                                "Ends of the interval.");
     return {
         positive("wave_speed", "wave speed", "", 1, "c of u_tt = c² (a u_x)_x - W'(u)."),
+        componentNamesField(),
+        waveSpeedsField(),
         textField("a", "a", Value("1"),
                   "a(s) > 0 of a medium, an expression in s = x/epsilon, and its period 1; of a homogeneous "
                   "one 1."),
         positive("epsilon", "epsilon", "", 0.05, "Period of the medium in x."),
-        textField("potential", "W", Value("none"),
-                  "W(u): none, klein-gordon (mass² u²/2), sine-gordon (1 - cos u), phi4 ((u² - 1)²/4), or "
-                  "an expression in u and mass."),
+        textField(
+            "potential", "W", Value("none"),
+            "W(u): none, klein-gordon (mass² u²/2), sine-gordon (1 - cos u), phi4 ((u² - 1)²/4), of two "
+            "components klein-gordon-complex or q-ball, or an expression in the components and mass."),
         notNegative("mass", "mass", "", 1, "m of the Klein-Gordon equation, and a name in W(u)."),
         domain,
         choiceField("boundary", "boundary", {"periodic", "dirichlet", "neumann"},
@@ -79,11 +84,34 @@ double amplitudeOf(const FieldPotential& potential) {
                                                                 : 1;
 }
 
+/// Several components, which only periodic domains have: a row of a rectangle.
+System makeRow(const Settings& settings, const wave::Domain& domain) {
+    constexpr int fewest = 4;
+    if (settings.text("boundary") != "periodic")
+        throw InvalidScene("/boundary",
+                           "must be periodic for a field with components, got " + settings.text("boundary"),
+                           "periodic");
+    if (settings.text("a") != "1")
+        throw InvalidScene("/a", "must be 1 for a field with components", "1, and wave_speeds");
+    const int cells = settings.integer("cells");
+    if (cells < fewest || cells > wave::mostPlaces)
+        throw InvalidScene("/cells", "must be from 4 to " + std::to_string(wave::mostPlaces) +
+                                         " for a field with components, got " + std::to_string(cells));
+    System s = makePlaneFieldSystem(
+        std::make_shared<const PlaneFieldProblem>(planeFieldOf(settings, wave::Grid{domain, cells})));
+    s.id = "field";
+    return s;
+}
+
 System makeField(const Settings& settings) {
     const std::vector<double> ends = settings.numbers("domain");
     if (!(ends[1] > ends[0]))
         throw InvalidScene("/domain", "must go from left to right, got " + formatNumber(ends[0]) + " to " +
                                           formatNumber(ends[1]));
+    if (componentNames(settings) != std::vector<std::string>{"u"})
+        return makeRow(settings, {ends[0], ends[1] - ends[0]});
+    if (const Value* const speeds = settings.find("wave_speeds"); speeds && !speeds->isNull())
+        throw InvalidScene("/wave_speeds", "is for a field with several components", "wave_speed");
     auto problem = std::make_shared<FieldProblem>();
     const int movingNodes = settings.integer(movingNodesKey);
     problem->hasMovingNodes = movingNodes > 0;
@@ -110,8 +138,9 @@ System makeField(const Settings& settings) {
 ModelEntry field() {
     ModelEntry e;
     e.item = {"field",
-              "scalar field",
-              "A field in one dimension: wave, Klein-Gordon, sine-Gordon, phi-4 or typed potential.",
+              "field",
+              "A field in one dimension, of one component or more: wave, Klein-Gordon, sine-Gordon, phi-4 or "
+              "typed potential.",
               fieldParameters(),
               {},
               ""};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A scalar field over a rectangle that is periodic in both directions, u_tt = c^2 (u_xx + u_yy) - W'(u):
-/// wave, Klein-Gordon, sine-Gordon, phi-4 equation, or a typed potential.
+/// A field of one component or more over a rectangle that is periodic in both directions, u_tt = c^2 (u_xx +
+/// u_yy) - W'(u): wave, Klein-Gordon, sine-Gordon, phi-4 equation, complex fields, or a typed potential.
 #include <memory>
 #include <string>
 #include <utility>
@@ -8,6 +8,8 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/model/plane_field/plane_field_system.hpp"
+#include "engine/model/plane_field/settings.hpp"
+#include "engine/model/plane_field/start.hpp"
 #include "engine/model/wave/wave_system.hpp"
 
 namespace extremal::systems {
@@ -23,16 +25,19 @@ FieldInfo sideField(const char* key, const char* title, const char* along) {
 std::vector<FieldInfo> planeFieldParameters() {
     FieldInfo across = integerField("cells_y", "N", 4, 4096, 64, "Number of nodes along y, even.");
     across.title = "nodes in y";
-    return {
-        positive("wave_speed", "wave speed", "", 1, "c of u_tt = c² (u_xx + u_yy) - W'(u)."),
-        textField("potential", "W", Value("none"),
-                  "W(u): none, klein-gordon (mass² u²/2), sine-gordon (1 - cos u), phi4 ((u² - 1)²/4), or "
-                  "an expression in u and mass."),
-        notNegative("mass", "mass", "", 1, "m of the Klein-Gordon equation, and a name in W(u)."),
-        sideField("domain", "domain in x", "x"),
-        sideField("domain_y", "domain in y", "y"),
-        integerField("cells", "N", 4, 4096, 64, "Number of nodes along x, even."),
-        across};
+    return {positive("wave_speed", "wave speed", "", 1, "c of u_tt = c² (u_xx + u_yy) - W'(u)."),
+            componentNamesField(),
+            waveSpeedsField(),
+            jsonField(
+                "potential", "W", "W", "none",
+                "W(u): none, klein-gordon (mass² u²/2), sine-gordon (1 - cos u), phi4 ((u² - 1)²/4), of two "
+                "components klein-gordon-complex {lambda} or q-ball {a, b}, or an expression in the "
+                "components and mass."),
+            notNegative("mass", "mass", "", 1, "m of the Klein-Gordon equation, and a name in W(u)."),
+            sideField("domain", "domain in x", "x"),
+            sideField("domain_y", "domain in y", "y"),
+            integerField("cells", "N", 4, 4096, 64, "Number of nodes along x, even."),
+            across};
 }
 
 System makePlaneField(const Settings& settings) {
@@ -44,9 +49,7 @@ System makePlaneField(const Settings& settings) {
                                " nodes with /cells, got " + std::to_string(grid.nx) + " x " +
                                std::to_string(grid.ny),
                            "512 x 512 and less");
-    FieldPotential potential(settings.text("potential"), settings.number("mass"), "/potential");
-    System s = makePlaneFieldSystem(
-        std::make_shared<const PlaneFieldProblem>(grid, settings.number("wave_speed"), std::move(potential)));
+    System s = makePlaneFieldSystem(std::make_shared<const PlaneFieldProblem>(planeFieldOf(settings, grid)));
     s.id = "field-2d";
     return s;
 }
@@ -56,12 +59,13 @@ System makePlaneField(const Settings& settings) {
 ModelEntry field_2d() {
     ModelEntry e;
     e.item = {"field-2d",
-              "scalar field in 2-D",
-              "A field on a periodic rectangle: wave, Klein-Gordon, sine-Gordon, phi-4 or typed potential.",
+              "field in 2-D",
+              "A field on a periodic rectangle, of one component or more: wave, Klein-Gordon, sine-Gordon, "
+              "phi-4, Q-ball or typed potential.",
               planeFieldParameters(),
               {},
               ""};
-    e.initial = planeFieldStartFields();
+    e.initial = planeFieldStartFields({"u", "v"});
     e.exampleInitial = {{"u", "exp(-x^2 - y^2)"}};
     e.exampleEnd = 10;
     e.exampleStep = 0.1;

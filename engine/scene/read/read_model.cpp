@@ -110,6 +110,15 @@ const ModelEntry* entryOf(const Value& model) {
     return type && type->isString() ? findModel(type->asString()) : nullptr;
 }
 
+/// "wave_speed": [1, 2] as models have it, "wave_speeds".
+Value withListOfSpeeds(Value model) {
+    const Value* const speed = model.find("wave_speed");
+    if (!speed || !speed->isArray()) return model;
+    Value made(Value::Object{});
+    for (const auto& [key, value] : model.asObject()) made.set(&value == speed ? "wave_speeds" : key, value);
+    return made;
+}
+
 /// A model of the plane by directions, {"domain": {"x": [0, 1], "y": [0, 2]}, "cells": [32, 64]}, as the
 /// models of the plane have it, "domain", "domain_y", "cells", "cells_y"; that of a line named so is the one
 /// of the plane. Anything else as it is.
@@ -147,7 +156,7 @@ std::optional<System> readModel(Reader& reader, const Value& document, Scene& sc
         reader.error("/model", "is required", "for example \"model\": { \"type\": \"pendulum\" }");
         return {};
     }
-    const Value model = byKeys(*given);
+    const Value model = withListOfSpeeds(byKeys(*given));
     const ModelEntry* entry = entryOf(model);
     if (entry) {
         reader.hasUnknownModel = false;

@@ -221,8 +221,8 @@ Value initialData() {
     Value data = object(p, {},
                         "Coordinates, and momenta, velocities or a second position (q1, a time `at` later); "
                         "or the keys of the model.");
-    // Points on spheres, by names of the user's own.
-    data.set("additionalProperties", arrayOf(reference("number")));
+    // Points on spheres and components of fields, by names of the user's own.
+    data.set("additionalProperties", anyOf({arrayOf(reference("number")), reference("number")}));
     return data;
 }
 

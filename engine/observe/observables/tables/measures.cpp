@@ -10,12 +10,17 @@ std::vector<ObservableEntry> measures() {
     };
     return {
         row("angular-momentum", "angular momentum",
-            "Mean angular momentum of a wave function on a rectangle about its middle.",
-            "a wave function in the plane"),
+            "Mean angular momentum of a wave function on a rectangle about its middle; of a field "
+            "-∫u_t (x u_y - y u_x), which a periodic rectangle keeps nearly only.",
+            "a wave function or a field in the plane"),
         row("casimir", "Casimir",
             "What the bracket keeps: the square of a free body's momentum; of tops, its vertical component; "
             "of a typed bracket those that are named. And the largest change.",
             "a rigid body, a free Lie group or a bracket with Casimirs"),
+        row("charge", "charge",
+            "∫(u v_t - v u_t) of two components that the equations do not tell from each other when they are "
+            "turned, and its change: kept to round-off by every scheme of the framework.",
+            "a field with such components"),
         row("current", "current",
             "Probability current through the middle of the domain, counted to the right.", "a wave function"),
         row("group-distance", "distance from the group",
@@ -47,7 +52,8 @@ std::vector<ObservableEntry> measures() {
             "a periodic wave function"),
         // The field equation of a periodic field keeps it, and a scheme on a mesh nearly.
         row("translation-momentum", "momentum of translation",
-            "-∫u_t u_x of a field, and its change; a mesh is no longer homogeneous, so that it is kept "
+            "-∫u_t u_x of a field, over a rectangle along both axes, and its change; a mesh is no longer "
+            "homogeneous, so that it is kept "
             "approximately; Fourier modes with exact nodes keep it to round-off.",
             "a field"),
     };
