@@ -41,10 +41,9 @@ std::vector<ViewEntry> errors_against_time() {
             "change of the norm of the wave function, or of the length of a spin, against time or steps, "
             "logarithmic",
             "norm", {"norm_error", "", 1}),
-        row("charge", "Change of the charge",
-            "change of the charge of a complex field against time or steps, logarithmic", "charge",
-            {"charge_error", "|Q − Q(0)|", 1}),
-        row("translation-momentum", "Change of the momentum of a field",
+        row("charge", "Charge", "change of the charge of a complex field against time or steps, logarithmic",
+            "charge", {"charge_error", "|Q − Q(0)|", 1}),
+        row("translation-momentum", "Field momentum",
             "change of the momentum of translation of a field against time or steps, logarithmic: round-off "
             "where the quadrature in space is exact",
             "translation-momentum", {"translation_momentum_error", "|P − P(0)|", 1}),

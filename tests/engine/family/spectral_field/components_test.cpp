@@ -142,6 +142,31 @@ private slots:
         QVERIFY(std::abs(momentum[1] + 0.3 * energy) < 1e-4 * energy);
         QVERIFY(error < 2e-3);  // its copies in the neighbouring periods
     }
+    void picturesStandSideBySideUnlessTheyAreOneFunction() {
+        const auto rastersOf = [](const System& system) {
+            const State start = startOf(system, {{"u", "1"}, {"v", "-2*cos(x)^2"}});
+            std::vector<double> sample(system.field.size());
+            system.field.sample(start.x.data(), sample.data());
+            Drawing drawing;
+            system.draw(sample.data(), drawing);
+            std::vector<Raster> all;
+            for (const Shape& shape : drawing.shapes)
+                if (const auto* raster = std::get_if<Raster>(&shape)) all.push_back(*raster);
+            return all;
+        };
+        const Side x{0, 2 * pi, 8}, y{-1, 1, 4};
+        const System one = plane("klein-gordon-complex", x, y), two = plane("u^2 + v^4", x, y);
+        QVERIFY(one.field.isComplex && !two.field.isComplex);
+        QCOMPARE(one.field.components, (std::vector<std::string>{"u", "v", "u_t", "v_t"}));
+        const std::vector<Raster> whole = rastersOf(one), parts = rastersOf(two);
+        QVERIFY(whole.size() == 1 && parts.size() == 2);
+        QVERIFY(std::abs(whole[0].strengths[0] - 1) < 1e-12);
+        QVERIFY(std::abs(2 * pi * whole[0].hues[0] - std::atan2(-2, 1)) < 1e-6);
+        // One scale for both, and each with the colour of its sign.
+        QVERIFY(parts[1].corner[0] > parts[0].corner[0] + parts[0].width);
+        QVERIFY(std::abs(parts[0].strengths[0] - 0.5) < 1e-12 && std::abs(parts[1].strengths[0] - 1) < 1e-12);
+        QVERIFY(parts[0].hues[0] != parts[1].hues[0]);
+    }
     void whatDoesNotFitIsRefused_data() {
         QTest::addColumn<QString>("model");
         QTest::addColumn<QString>("initial");
