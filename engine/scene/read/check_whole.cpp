@@ -374,7 +374,8 @@ bool checkStart(Reader& reader, ResolvedScene& scene) {
 void checkCaution(Reader& reader, const ResolvedScene& scene) {
     if (!scene.system->caution || !reader.errors.empty()) return;
     const std::string caution = scene.system->caution(scene.initial.x.data());
-    if (!caution.empty()) reader.warning("/initial", "is " + caution, "raise /model/modes");
+    const char* const resolution = scene.scene.model.find("cells") ? "/model/cells" : "/model/modes";
+    if (!caution.empty()) reader.warning("/initial", "is " + caution, std::string("raise ") + resolution);
 }
 
 bool measuresErrors(const Scene& scene) {

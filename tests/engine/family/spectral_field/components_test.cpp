@@ -167,6 +167,13 @@ private slots:
         QVERIFY(std::abs(parts[0].strengths[0] - 0.5) < 1e-12 && std::abs(parts[1].strengths[0] - 1) < 1e-12);
         QVERIFY(parts[0].hues[0] != parts[1].hues[0]);
     }
+    void aPoorMeshIsToldWithTheKeyOfItsModel() {
+        const ReadScene read = readScene(std::string(
+            R"J({"extremal": 1, "model": {"type": "field-2d", "cells": 8}, "initial": {"u": "exp(-4*r^2)"}, )J"
+            R"J("time": {"end": 1}, "schemes": [{"step": 0.1, "scheme": "field-gauss-2"}]})J"));
+        QVERIFY(read.errors.empty() && read.warnings.size() == 1);
+        QCOMPARE(read.warnings.front().hint, std::string("raise /model/cells"));
+    }
     void whatDoesNotFitIsRefused_data() {
         QTest::addColumn<QString>("model");
         QTest::addColumn<QString>("initial");
