@@ -13,7 +13,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/group/matrix_group.hpp"
+#include "engine/group/structure_constants.hpp"
 
 namespace extremal::series {
 
@@ -31,9 +31,9 @@ inline int termsFor(double norm, double accuracy) {
 }
 
 /// sum_n step^n(v) / n!, where step is +-ad_xi or +-ad_xi^T.
-template <class Step>
-MatrixGroup::Vector exponential(const MatrixGroup::Vector& v, int terms, Step&& step) {
-    MatrixGroup::Vector sum = v, term = v;
+template <class V, class Step>
+V exponential(const V& v, int terms, Step&& step) {
+    V sum = v, term = v;
     for (int n = 1; n <= terms; ++n) {
         term = step(term) / n;
         sum += term;
@@ -41,9 +41,9 @@ MatrixGroup::Vector exponential(const MatrixGroup::Vector& v, int terms, Step&& 
     return sum;
 }
 /// sum_n step^n(v) / (n+1)!.
-template <class Step>
-MatrixGroup::Vector phi(const MatrixGroup::Vector& v, int terms, Step&& step) {
-    MatrixGroup::Vector sum = v, term = v;
+template <class V, class Step>
+V phi(const V& v, int terms, Step&& step) {
+    V sum = v, term = v;
     for (int n = 1; n < terms; ++n) {
         term = step(term) / (n + 1);
         sum += term;
@@ -52,10 +52,10 @@ MatrixGroup::Vector phi(const MatrixGroup::Vector& v, int terms, Step&& step) {
 }
 
 /// A^-1 eta, to the fourth power of ad_xi: z/(1 - e^-z) = 1 + z/2 + z^2/12 - z^4/720. For guesses.
-inline MatrixGroup::Vector inverseOfDexp(const MatrixGroup& group, const MatrixGroup::Vector& xi,
-                                         const MatrixGroup::Vector& eta) {
-    const MatrixGroup::Vector first = group.bracket(xi, eta), second = group.bracket(xi, first);
-    return eta + first / 2 + second / 12 - group.bracket(xi, group.bracket(xi, second)) / 720;
+template <class V>
+V inverseOfDexp(const StructureConstants& algebra, const V& xi, const V& eta) {
+    const V first = algebra.bracket(xi, eta), second = algebra.bracket(xi, first);
+    return eta + first / 2 + second / 12 - algebra.bracket(xi, V(algebra.bracket(xi, second))) / 720;
 }
 
 }  // namespace extremal::series

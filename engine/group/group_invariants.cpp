@@ -24,9 +24,9 @@ Eigen::MatrixXd nullSpace(const Eigen::MatrixXd& squares) {
     return basis;
 }
 
-/// The X (n x n) with condition(E, X) = 0 for each matrix of the basis.
+/// The X (n x n) with condition(E, X) = 0 for each matrix of the basis; `isTraceless`: and without a trace.
 template <class Condition>
-std::vector<Square> invariantsOf(const MatrixGroup::Factor& f, const Condition& condition) {
+std::vector<Square> invariantsOf(const MatrixGroup::Factor& f, bool isTraceless, const Condition& condition) {
     const int size = f.n * f.n;
     Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(size, size), A(size, size);
     for (const Square& E : f.basis) {
@@ -38,6 +38,11 @@ std::vector<Square> invariantsOf(const MatrixGroup::Factor& f, const Condition& 
             A.col(k) = Eigen::Map<const Eigen::VectorXd>(image.data(), size);
         }
         squares += dense::product<double>(A.transpose(), A);
+    }
+    if (isTraceless) {
+        const Square one = Square::Identity(f.n, f.n);
+        const Eigen::Map<const Eigen::VectorXd> trace(one.data(), size);
+        squares += trace * trace.transpose();
     }
     const Eigen::MatrixXd basis = nullSpace(squares);
     std::vector<Square> found;
@@ -63,15 +68,15 @@ std::vector<Eigen::VectorXd> vectorsOf(const MatrixGroup::Factor& f, bool fromLe
 
 GroupInvariants::GroupInvariants(const MatrixGroup& group) {
     for (const MatrixGroup::Factor& f : group.factors()) {
-        Part part;
-        part.factor = f;
-        part.forms = invariantsOf(f, [](const Square& E, const Square& X) -> Square {
+        Part part(f);
+        part.forms = invariantsOf(f, false, [](const Square& E, const Square& X) -> Square {
             return E.transpose().lazyProduct(X) + X.lazyProduct(E);
         });
-        part.duals = invariantsOf(f, [](const Square& E, const Square& X) -> Square {
+        part.duals = invariantsOf(f, false, [](const Square& E, const Square& X) -> Square {
             return E.lazyProduct(X) + X.lazyProduct(E.transpose());
         });
-        part.commutant = invariantsOf(f, [](const Square& E, const Square& X) -> Square {
+        // Every g commutes with 1, which tells nothing and costs the digits of far places.
+        part.commutant = invariantsOf(f, true, [](const Square& E, const Square& X) -> Square {
             return E.lazyProduct(X) - X.lazyProduct(E);
         });
         part.rows = vectorsOf(f, true);
@@ -79,7 +84,7 @@ GroupInvariants::GroupInvariants(const MatrixGroup& group) {
         part.isSpecial = std::all_of(f.basis.begin(), f.basis.end(),
                                      [](const Square& E) { return std::abs(E.trace()) <= 1e-12 * E.norm(); });
         part.isOrthogonal =
-            part.forms.size() == 1 && part.commutant.size() == 1 &&
+            part.forms.size() == 1 && part.commutant.empty() &&
             (part.forms[0] - part.forms[0](0, 0) * Square::Identity(f.n, f.n)).norm() < 1e-9 &&
             f.d == f.n * (f.n - 1) / 2;
         linearise(part, dimension_);
@@ -103,7 +108,7 @@ void GroupInvariants::defects(const Part& part, const Square& g, const Square& i
         const Square defect = C - inverse.lazyProduct(Square(C.lazyProduct(g)));
         add(defect.data(), defect.size());
     }
-    using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, MatrixGroup::maxFactorSize, 1>;
+    using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, GroupFactor::maxSize, 1>;
     for (const Eigen::VectorXd& w : part.rows) {
         const Vector defect = g.transpose().lazyProduct(w) - w;
         add(defect.data(), defect.size());

@@ -34,6 +34,7 @@ public:
 private:
     using Square = MatrixGroup::Square;
     struct Part {
+        explicit Part(const MatrixGroup::Factor& f) : factor(f) {}
         MatrixGroup::Factor factor;
         std::vector<Square> forms, duals, commutant;
         std::vector<Eigen::VectorXd> rows, columns;

@@ -108,7 +108,7 @@ void rotations() {
 
 void products() {
     std::printf("bodies in a product, degree 2, h = 0.1: us a step and body, free and in a potential\n");
-    for (const int count : {1, 2, 4, 8})
+    for (const int count : {1, 2, 4, 8, 16, 64, 256})
         std::printf("%4d %8.2f %8.2f\n", count, ofGroup(bodies(count, true), 2, 0.1) / count / 1e3,
                     ofGroup(bodies(count, false), 2, 0.1) / count / 1e3);
 }

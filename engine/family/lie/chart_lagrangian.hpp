@@ -103,14 +103,18 @@ struct ChartLagrangian {
     }
     /// The force at a node and its slope along g exp(eps zeta); A = dexp(xi).
     struct ForceSlope {
-        Vector f;
-        Matrix A, S;
+        Vector force;
+        Matrix chart, slope;
+        const Vector& f() const { return force; }
+        const Matrix& A() const { return chart; }
+        const Matrix& S() const { return slope; }
     };
     ForceSlope forceSlope(const typename G::Element& g, const typename G::template Chart<2>& at,
                           const Vector&) const {
         ForceSlope F;
-        F.A = at.dexpMatrix();
-        body.potential(body.model.get(), G::rotation(g), G::position(g), nullptr, F.f.data(), F.S.data());
+        F.chart = at.dexpMatrix();
+        body.potential(body.model.get(), G::rotation(g), G::position(g), nullptr, F.force.data(),
+                       F.slope.data());
         return F;
     }
     /// The second derivatives of the whole, with the potential's.
@@ -118,8 +122,14 @@ struct ChartLagrangian {
                   ForceSlope& F) const {
         Second s = second(at, v);
         F = forceSlope(g, at, v);
-        s.xiXi += at.derivativeOfTransposed(F.f) + s.A.transpose() * F.S * s.A;
+        s.xiXi += at.derivativeOfTransposed(F.force) + s.A.transpose() * F.slope * s.A;
         return s;
+    }
+    /// Those of a free body where g is null.
+    Second whole(const typename G::Element* g, const typename G::template Chart<2>& at,
+                 const Vector& v) const {
+        ForceSlope unused;
+        return g ? second(*g, at, v, unused) : second(at, v);
     }
     /// What round-off in the equations leaves of Newton's corrections of Y: they are momenta of the heaviest
     /// axis, or of the whole body on its way, and move the lightest axis.
@@ -156,17 +166,14 @@ Mechanics<T> chartMechanics(const typename G::Mechanics& on, const typename G::P
         const Vector xi = Eigen::Map<const Vector>(q, n), v = Eigen::Map<const Vector>(velocity, n);
         typename G::template Chart<2> at = model.group.template chart<2>(xi);
         Vector forXi, forV;
-        typename ChartLagrangian<T, G>::Second second;
         const typename G::Element g = model.group.times(model.g, at);
+        const bool isFree = model.lagrangian.isFree();
         *value = model.lagrangian.value(g, at.dexp(v));
-        if (model.lagrangian.isFree()) {
+        if (isFree)
             model.lagrangian.gradient(at, v, forXi, forV);
-            second = model.lagrangian.second(at, v);
-        } else {
-            typename ChartLagrangian<T, G>::ForceSlope F;
+        else
             model.lagrangian.gradient(g, at, v, forXi, forV);
-            second = model.lagrangian.second(g, at, v, F);
-        }
+        const auto second = model.lagrangian.whole(isFree ? nullptr : &g, at, v);
         Eigen::Map<Flat>(gradient, 2 * n) << forXi, forV;
         Eigen::Map<Square>(hessian, 2 * n, 2 * n) << second.xiXi, second.vXi.transpose(), second.vXi,
             second.vv;

@@ -1,200 +1,254 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The chart at xi of a group given as data: by the closed forms of rotations (group/so3.hpp) where every
-/// factor is so(3) or abelian, whatever its basis (group/rotation_algebra.hpp); else by sweeps of brackets.
+/// The chart at xi of a group given as data, factor by factor: by the closed forms of rotations
+/// (group/so3.hpp) where a factor is so(3), whatever its basis (group/rotation_algebra.hpp); nothing to do
+/// where it is abelian; else by sweeps of brackets.
 /// K as in so3::Exponential.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "engine/family/lie/series_chart.hpp"
+#include "engine/group/matrix_group.hpp"
 #include "engine/group/so3.hpp"
 
 namespace extremal {
 
-/// ad is block diagonal, with vector products in the blocks of rotations and nothing in those of abelian
-/// factors: functions are taken factor by factor, in the coordinates in which each block is the usual one.
+/// so(3), in the coordinates in which brackets are vector products.
 template <int K>
-class RotationsChart {
+class TurnChart {
 public:
-    using Vector = MatrixGroup::Vector;
-    using Matrix = MatrixGroup::Matrix;
+    using Vector = GroupFactor::Vector;
+    using Matrix = GroupFactor::Matrix;
 
-    RotationsChart(const MatrixGroup& group, const Vector& xi) : d_(group.dimension()) {
-        for (const MatrixGroup::Factor& f : group.factors())
-            if (f.rotations) {
-                Turn& turn = turns_[count_++];
-                turn.basis = &*f.rotations;
-                turn.at = f.coordinate;
-                turn.chart.emplace(turn.basis->own(xi.template segment<3>(f.coordinate)));
-            }
-    }
+    TurnChart(const RotationAlgebra& basis, const Vector& xi) : basis_(&basis), chart_(basis.own(xi)) {}
 
-    Vector rotateBack(const Vector& v) const {
-        return ofVectors(v, [](const Turn& t, const Three& y) { return t.chart->rotateBack(y); });
-    }
+    Vector rotateBack(const Vector& v) const { return given(chart_.rotateBack(own(v))); }
     Vector rotateMomentum(const Vector& m) const {
-        return ofMomenta(m, [](const Turn& t, const Three& y) { return t.chart->rotateMomentum(y); });
+        return givenMomentum(chart_.rotateMomentum(ownMomentum(m)));
     }
     Vector rotateMomentumBack(const Vector& m) const {
-        return ofMomenta(m, [](const Turn& t, const Three& y) { return t.chart->rotateMomentumBack(y); });
+        return givenMomentum(chart_.rotateMomentumBack(ownMomentum(m)));
     }
-    Vector dexp(const Vector& v) const {
-        return ofVectors(v, [](const Turn& t, const Three& y) { return t.chart->dexp(y); });
-    }
+    Vector dexp(const Vector& v) const { return given(chart_.dexp(own(v))); }
     Vector dexpTransposed(const Vector& m) const {
-        return ofMomenta(m, [](const Turn& t, const Three& y) { return t.chart->dexpTransposed(y); });
+        return givenMomentum(chart_.dexpTransposed(ownMomentum(m)));
     }
     Vector dexpRightTransposed(const Vector& m) const {
-        return ofMomenta(m, [](const Turn& t, const Three& y) { return t.chart->dexpRightTransposed(y); });
+        return givenMomentum(chart_.dexpRightTransposed(ownMomentum(m)));
     }
-    Matrix dexpMatrix() const {
-        Matrix A = Matrix::Identity(d_, d_);
-        for (const Turn& t : turns()) block(A, t) = vectorsToVectors(t, t.chart->dexpMatrix());
-        return A;
-    }
+    Matrix dexpMatrix() const { return vectorsToVectors(chart_.dexpMatrix()); }
     Matrix derivativeOfTransposed(const Vector& m) const {
-        return slopes(m, [](const Turn& t, const Three& y) { return t.chart->derivativeOfTransposed(y); });
+        return vectorsToMomenta(chart_.derivativeOfTransposed(ownMomentum(m)));
     }
     Matrix derivativeOfRightTransposed(const Vector& m) const {
-        return slopes(m,
-                      [](const Turn& t, const Three& y) { return t.chart->derivativeOfRightTransposed(y); });
+        return vectorsToMomenta(chart_.derivativeOfRightTransposed(ownMomentum(m)));
     }
 
     Vector sweep(const Vector& v) {
-        v_ = v;
-        return dexp(v);
+        v_ = own(v);
+        return given(chart_.dexp(v_));
     }
     void pull(const Vector& m, Vector& forXi, Vector& forV) {
-        m_ = m;
-        forV = dexpTransposed(m);
-        forXi = Vector::Zero(d_);
-        for (const Turn& t : turns())
-            forXi.template segment<3>(t.at) =
-                t.basis->givenMomentum(t.chart->gradient(vectorOf(t, v_), momentumOf(t, m)));
+        m_ = ownMomentum(m);
+        forV = givenMomentum(chart_.dexpTransposed(m_));
+        forXi = givenMomentum(chart_.gradient(v_, m_));
     }
     ChartDerivatives derivatives() const {
-        ChartDerivatives r;
-        r.A = dexpMatrix();
-        r.B = derivativeOfTransposed(m_);
-        r.D = r.H = Matrix::Zero(d_, d_);
-        for (const Turn& t : turns()) {
-            const Three v = vectorOf(t, v_), m = momentumOf(t, m_);
-            block(r.D, t) = vectorsToVectors(t, t.chart->derivative(v));
-            block(r.H, t) = vectorsToMomenta(t, t.chart->hessian(v, m));
-        }
-        return r;
+        return {dexpMatrix(), vectorsToVectors(chart_.derivative(v_)),
+                vectorsToMomenta(chart_.derivativeOfTransposed(m_)),
+                vectorsToMomenta(chart_.hessian(v_, m_))};
     }
 
 private:
     using Three = so3::Vector<double>;
     using Square = so3::Matrix<double>;
-    struct Turn {
-        const RotationAlgebra* basis = nullptr;
-        int at = 0;  ///< the first of its coordinates
-        std::optional<so3::Exponential<double, K>> chart;
-    };
-    struct Turns {
-        const Turn *first, *last;
-        const Turn* begin() const { return first; }
-        const Turn* end() const { return last; }
-    };
-    Turns turns() const { return {turns_.data(), turns_.data() + count_}; }
 
-    static Three vectorOf(const Turn& t, const Vector& v) {
-        return t.basis->own(v.template segment<3>(t.at));
+    Three own(const Vector& v) const { return basis_->own(v); }
+    Three ownMomentum(const Vector& m) const { return basis_->ownMomentum(m); }
+    Vector given(const Three& y) const { return basis_->given(y); }
+    Vector givenMomentum(const Three& y) const { return basis_->givenMomentum(y); }
+    Square vectorsToVectors(const Square& of) const {
+        if (basis_->isUsual) return of;
+        return basis_->T.lazyProduct(Square(of.lazyProduct(basis_->inverse)));
     }
-    static Three momentumOf(const Turn& t, const Vector& m) {
-        return t.basis->ownMomentum(m.template segment<3>(t.at));
-    }
-    template <class F>
-    Vector ofVectors(const Vector& v, F&& f) const {
-        Vector r = v;
-        for (const Turn& t : turns())
-            r.template segment<3>(t.at) = t.basis->given(Three(f(t, vectorOf(t, v))));
-        return r;
-    }
-    template <class F>
-    Vector ofMomenta(const Vector& m, F&& f) const {
-        Vector r = m;
-        for (const Turn& t : turns())
-            r.template segment<3>(t.at) = t.basis->givenMomentum(Three(f(t, momentumOf(t, m))));
-        return r;
-    }
-    template <class F>
-    Matrix slopes(const Vector& m, F&& f) const {
-        Matrix B = Matrix::Zero(d_, d_);
-        for (const Turn& t : turns()) block(B, t) = vectorsToMomenta(t, f(t, momentumOf(t, m)));
-        return B;
-    }
-    static auto block(Matrix& of, const Turn& t) { return of.template block<3, 3>(t.at, t.at); }
-    static Square vectorsToVectors(const Turn& t, const Square& of) {
-        if (t.basis->isUsual) return of;
-        return t.basis->T.lazyProduct(Square(of.lazyProduct(t.basis->inverse)));
-    }
-    static Square vectorsToMomenta(const Turn& t, const Square& of) {
-        if (t.basis->isUsual) return of;
-        return t.basis->inverse.transpose().lazyProduct(Square(of.lazyProduct(t.basis->inverse)));
+    Square vectorsToMomenta(const Square& of) const {
+        if (basis_->isUsual) return of;
+        return basis_->inverse.transpose().lazyProduct(Square(of.lazyProduct(basis_->inverse)));
     }
 
-    int d_;
-    std::size_t count_ = 0;
-    std::array<Turn, MatrixGroup::maxDimension / 3> turns_;
-    Vector v_, m_;
+    const RotationAlgebra* basis_;
+    so3::Exponential<double, K> chart_;
+    Three v_, m_;
 };
 
+/// Of an abelian algebra: eta = v.
+class FlatChart {
+public:
+    using Vector = GroupFactor::Vector;
+    using Matrix = GroupFactor::Matrix;
+
+    explicit FlatChart(const Vector& xi) : d_(xi.size()) {}
+    const Vector& rotateBack(const Vector& v) const { return v; }
+    const Vector& rotateMomentum(const Vector& m) const { return m; }
+    const Vector& rotateMomentumBack(const Vector& m) const { return m; }
+    const Vector& dexp(const Vector& v) const { return v; }
+    const Vector& dexpTransposed(const Vector& m) const { return m; }
+    const Vector& dexpRightTransposed(const Vector& m) const { return m; }
+    Matrix dexpMatrix() const { return Matrix::Identity(d_, d_); }
+    Matrix derivativeOfTransposed(const Vector&) const { return Matrix::Zero(d_, d_); }
+    Matrix derivativeOfRightTransposed(const Vector&) const { return Matrix::Zero(d_, d_); }
+    const Vector& sweep(const Vector& v) { return v; }
+    void pull(const Vector& m, Vector& forXi, Vector& forV) const {
+        forXi = Vector::Zero(d_);
+        forV = m;
+    }
+    ChartDerivatives derivatives() const {
+        const Matrix none = Matrix::Zero(d_, d_);
+        return {dexpMatrix(), none, none, none};
+    }
+
+private:
+    Eigen::Index d_;
+};
+
+/// The chart of one factor, whichever it is.
+template <int K>
+class FactorChart {
+public:
+    using Vector = GroupFactor::Vector;
+    using Matrix = GroupFactor::Matrix;
+
+    FactorChart(const GroupFactor& factor, const Vector& xi) : factor_(&factor) {
+        if (factor.rotations)
+            turn_.emplace(*factor.rotations, xi);
+        else if (!factor.isAbelian)
+            series_ = std::make_unique<SeriesChart>(factor, xi);
+        else
+            flat_.emplace(xi);
+    }
+    const GroupFactor& factor() const { return *factor_; }
+
+    Vector rotateBack(const Vector& v) const {
+        return of([&](const auto& c) -> Vector { return c.rotateBack(v); });
+    }
+    Vector rotateMomentum(const Vector& m) const {
+        return of([&](const auto& c) -> Vector { return c.rotateMomentum(m); });
+    }
+    Vector rotateMomentumBack(const Vector& m) const {
+        return of([&](const auto& c) -> Vector { return c.rotateMomentumBack(m); });
+    }
+    Vector dexp(const Vector& v) const {
+        return of([&](const auto& c) -> Vector { return c.dexp(v); });
+    }
+    Vector dexpTransposed(const Vector& m) const {
+        return of([&](const auto& c) -> Vector { return c.dexpTransposed(m); });
+    }
+    Vector dexpRightTransposed(const Vector& m) const {
+        return of([&](const auto& c) -> Vector { return c.dexpRightTransposed(m); });
+    }
+    Matrix dexpMatrix() const {
+        return of([](const auto& c) -> Matrix { return c.dexpMatrix(); });
+    }
+    /// The matrix direction -> D_xi [dexp(xi)^T m] . direction (m fixed), and that of dexp(-xi)^T m.
+    Matrix derivativeOfTransposed(const Vector& m) const {
+        return of([&](const auto& c) -> Matrix { return c.derivativeOfTransposed(m); });
+    }
+    Matrix derivativeOfRightTransposed(const Vector& m) const {
+        return of([&](const auto& c) -> Matrix { return c.derivativeOfRightTransposed(m); });
+    }
+    /// eta = dexp(xi) v, kept for what follows.
+    Vector sweep(const Vector& v) { return turn_ ? turn_->sweep(v) : series_ ? series_->sweep(v) : v; }
+    /// (D_xi eta)^T m and dexp(xi)^T m, of the curve of the last sweep.
+    void pull(const Vector& m, Vector& forXi, Vector& forV) {
+        if (turn_)
+            turn_->pull(m, forXi, forV);
+        else if (series_)
+            series_->pull(m, forXi, forV);
+        else
+            flat_->pull(m, forXi, forV);
+    }
+    /// Of the curve of the last sweep and the momentum of the last pull.
+    ChartDerivatives derivatives() const {
+        return of([](const auto& c) { return c.derivatives(); });
+    }
+
+private:
+    template <class F>
+    auto of(const F& f) const {
+        return turn_ ? f(*turn_) : series_ ? f(*series_) : f(*flat_);
+    }
+    const GroupFactor* factor_;
+    std::optional<TurnChart<K>> turn_;
+    std::unique_ptr<SeriesChart> series_;
+    std::optional<FlatChart> flat_;
+};
+
+/// That of the product: functions of ad, which is block diagonal.
 template <int K>
 class DataChart {
 public:
     using Vector = MatrixGroup::Vector;
-    using Matrix = MatrixGroup::Matrix;
+    using Part = GroupFactor::Vector;
 
     DataChart(const MatrixGroup& group, const Vector& xi) : xi_(xi) {
-        if (group.hasClosedForms())
-            closed_.emplace(group, xi_);
-        else
-            series_.emplace(group, xi_);
+        parts_.reserve(group.factors().size());
+        for (const GroupFactor& f : group.factors())
+            parts_.emplace_back(f, Part(xi.segment(f.coordinate, f.d)));
     }
     const Vector& xi() const { return xi_; }
+    const FactorChart<K>& part(int p) const { return parts_[static_cast<std::size_t>(p)]; }
 
     Vector rotateBack(const Vector& v) const {
-        return closed_ ? closed_->rotateBack(v) : series_->rotateBack(v);
+        return byPart(v, [](const auto& c, const Part& y) { return c.rotateBack(y); });
     }
     Vector rotateMomentum(const Vector& m) const {
-        return closed_ ? closed_->rotateMomentum(m) : series_->rotateMomentum(m);
+        return byPart(m, [](const auto& c, const Part& y) { return c.rotateMomentum(y); });
     }
     Vector rotateMomentumBack(const Vector& m) const {
-        return closed_ ? closed_->rotateMomentumBack(m) : series_->rotateMomentumBack(m);
+        return byPart(m, [](const auto& c, const Part& y) { return c.rotateMomentumBack(y); });
     }
-    Vector dexp(const Vector& v) const { return closed_ ? closed_->dexp(v) : series_->dexp(v); }
+    Vector dexp(const Vector& v) const {
+        return byPart(v, [](const auto& c, const Part& y) { return c.dexp(y); });
+    }
     Vector dexpTransposed(const Vector& m) const {
-        return closed_ ? closed_->dexpTransposed(m) : series_->dexpTransposed(m);
+        return byPart(m, [](const auto& c, const Part& y) { return c.dexpTransposed(y); });
     }
     Vector dexpRightTransposed(const Vector& m) const {
-        return closed_ ? closed_->dexpRightTransposed(m) : series_->dexpRightTransposed(m);
+        return byPart(m, [](const auto& c, const Part& y) { return c.dexpRightTransposed(y); });
     }
-    Matrix dexpMatrix() const { return closed_ ? closed_->dexpMatrix() : series_->dexpMatrix(); }
-    /// The matrix direction -> D_xi [dexp(xi)^T m] . direction (m fixed), and that of dexp(-xi)^T m.
-    Matrix derivativeOfTransposed(const Vector& m) const {
-        return closed_ ? closed_->derivativeOfTransposed(m) : series_->derivativeOfTransposed(m);
+    Vector sweep(const Vector& v) {
+        Vector eta(v.size());
+        for (FactorChart<K>& c : parts_) segment(eta, c) = c.sweep(segment(v, c));
+        return eta;
     }
-    Matrix derivativeOfRightTransposed(const Vector& m) const {
-        return closed_ ? closed_->derivativeOfRightTransposed(m) : series_->derivativeOfRightTransposed(m);
-    }
-    /// eta = dexp(xi) v; keeps what follows needs of it.
-    Vector sweep(const Vector& v) { return closed_ ? closed_->sweep(v) : series_->sweep(v); }
-    /// dexp(xi)^T m, and (D_xi eta)^T m, of the curve of the last sweep.
     void pull(const Vector& m, Vector& forXi, Vector& forV) {
-        closed_ ? closed_->pull(m, forXi, forV) : series_->pull(m, forXi, forV);
+        forXi.resize(m.size());
+        forV.resize(m.size());
+        Part ownXi, ownV;
+        for (FactorChart<K>& c : parts_) {
+            c.pull(segment(m, c), ownXi, ownV);
+            segment(forXi, c) = ownXi;
+            segment(forV, c) = ownV;
+        }
     }
-    /// Of the curve of the last sweep and the momentum of the last pull.
-    ChartDerivatives derivatives() const { return closed_ ? closed_->derivatives() : series_->derivatives(); }
 
 private:
+    template <class V>
+    static auto segment(V& of, const FactorChart<K>& c) {
+        return of.segment(c.factor().coordinate, c.factor().d);
+    }
+    template <class F>
+    Vector byPart(const Vector& v, const F& f) const {
+        Vector r(v.size());
+        for (const FactorChart<K>& c : parts_) segment(r, c) = f(c, Part(segment(v, c)));
+        return r;
+    }
+
     Vector xi_;
-    std::optional<RotationsChart<K>> closed_;
-    std::optional<SeriesChart> series_;
+    std::vector<FactorChart<K>> parts_;
 };
 
 }  // namespace extremal

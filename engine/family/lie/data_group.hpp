@@ -80,14 +80,7 @@ public:
         return group_->product(g, group_->exponential(at.xi()));
     }
     /// mu = Ad_g^T J.
-    Vector bodyMomentum(const Element& g, const GroupPose& p) const {
-        return group_->adjoint(g, group_->inverse(g)).transpose().lazyProduct(p.J);
-    }
-    Matrix precessionMatrix(const Vector& m) const {
-        Matrix r(dimension(), dimension());
-        for (int k = 0; k < dimension(); ++k) r.col(k) = group_->coadjointOfBasis(k, m);
-        return r;
-    }
+    Vector bodyMomentum(const Element& g, const GroupPose& p) const { return group_->inBody(g, p.J); }
     Vector precession(const Vector& m, const Vector& u) const { return group_->coadjoint(u, m); }
 
     static Vector corrected(const Vector& xi, const Vector& change) { return xi + change; }
@@ -152,8 +145,7 @@ private:
     }
     /// Ad_{g^-1}^T W.
     Vector inSpace(const Element& g, const Vector& W) const {
-        if (W.isZero(0)) return Vector::Zero(dimension());
-        return group_->adjoint(group_->inverse(g), g).transpose().lazyProduct(W);
+        return W.isZero(0) ? Vector::Zero(dimension()) : group_->inSpace(g, W);
     }
     std::shared_ptr<const MatrixGroup> group_;
     std::shared_ptr<const GroupInvariants> invariants_;

@@ -8,6 +8,10 @@
 ///     l_xi,xi = m . D2_xi eta + D^T (M D + N A) + D_xi(A^T f) + A^T (S A + N^T D).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <vector>
 
 #include "engine/family/lie/chart_lagrangian.hpp"
@@ -19,12 +23,13 @@ namespace extremal {
 template <>
 struct ChartLagrangian<double, DataGroup> {
     using Vector = DataGroup::Vector;
-    using Matrix = DataGroup::Matrix;
+    using PartMatrix = GroupFactor::Matrix;
     static constexpr bool isMixed = true;
     static constexpr bool hasSpaceForm = false;
 
     explicit ChartLagrangian(const GroupMechanics& mechanics) : mechanics_(mechanics) {}
     bool isFree() const { return mechanics_.isInvariant; }
+    const Couplings& couplings() const { return *mechanics_.couplings; }
 
     template <int K>
     void gradient(DataChart<K>& at, const Vector& v, Vector& forXi, Vector& forV) const {
@@ -53,25 +58,148 @@ struct ChartLagrangian<double, DataGroup> {
         return f;
     }
 
+    /// L and its derivatives at a node, and those of the chart there.
+    struct Node {
+        std::shared_ptr<const Couplings> couplings;
+        Vector m, f;
+        std::vector<double> M, N, S;  ///< in the layout of the couplings; N and S empty where L is invariant
+        std::vector<ChartDerivatives> charts;  ///< of each factor
+
+        const ChartDerivatives& chart(int p) const { return charts[static_cast<std::size_t>(p)]; }
+        bool isFree() const { return S.empty(); }
+    };
+    /// g: null where L is invariant.
+    Node node(const double* g, DataChart<2>& at, const Vector& v) const {
+        const Vector eta = at.sweep(v);
+        const std::size_t entries = mechanics_.couplings->entries();
+        Node n{mechanics_.couplings, Vector(eta.size()), {}, std::vector<double>(entries), {}, {}, {}};
+        if (g) {
+            n.f.resize(eta.size());
+            n.N.resize(entries);
+            n.S.resize(entries);
+        }
+        double L = 0;
+        mechanics_.jet(mechanics_.model.get(), g, eta.data(), &L, n.m.data(), g ? n.f.data() : nullptr,
+                       n.M.data(), g ? n.N.data() : nullptr, g ? n.S.data() : nullptr);
+        keepSpread(n);
+        Vector forXi, forV;
+        at.pull(n.m, forXi, forV);
+        n.charts.reserve(static_cast<std::size_t>(n.couplings->parts()));
+        for (int p = 0; p < n.couplings->parts(); ++p) n.charts.push_back(at.part(p).derivatives());
+        return n;
+    }
+    /// The second derivatives by (xi, v) of two factors.
     struct Second {
-        Matrix xiXi, vXi, vv, A;
+        PartMatrix xiXi, xiV, vXi, vv;
     };
-    /// The force and its slopes at a node, with what a node moves by.
+    Second second(const Node& n, const DataChart<2>& at, const Couplings::Pair& pair) const {
+        const Couplings& on = *n.couplings;
+        const auto M = on.block(n.M.data(), pair);
+        const ChartDerivatives &left = n.chart(pair.p), &right = n.chart(pair.q);
+        const PartMatrix MA = M.lazyProduct(right.A);
+        PartMatrix change = M.lazyProduct(right.D), changeOfOther = left.D.transpose().lazyProduct(M);
+        Second s;
+        s.vv = left.A.transpose().lazyProduct(MA);
+        if (n.isFree()) {
+            s.xiXi = left.D.transpose().lazyProduct(change);
+        } else {
+            const auto N = on.block(n.N.data(), pair), opposite = on.opposite(n.N.data(), pair);
+            change += N.lazyProduct(right.A);
+            changeOfOther += left.A.transpose().lazyProduct(opposite.transpose());
+            PartMatrix ofForce = on.block(n.S.data(), pair).lazyProduct(right.A);
+            ofForce += opposite.transpose().lazyProduct(right.D);
+            s.xiXi = left.D.transpose().lazyProduct(change);
+            s.xiXi += left.A.transpose().lazyProduct(ofForce);
+        }
+        s.vXi = left.A.transpose().lazyProduct(change);
+        s.xiV = changeOfOther.lazyProduct(right.A);
+        if (pair.p != pair.q) return s;
+        s.xiXi += left.H;
+        if (!n.isFree()) s.xiXi += at.part(pair.p).derivativeOfTransposed(part(n.f, on, pair.p));
+        s.vXi += left.B;
+        s.xiV += left.B.transpose();
+        return s;
+    }
+    /// What (xi, v) of factor q do to the force on p, less the bracket with it.
+    struct ForceBy {
+        PartMatrix xi, v;
+    };
+    ForceBy forceBy(const Node& n, const Couplings::Pair& pair) const {
+        const Couplings& on = *n.couplings;
+        const ChartDerivatives& chart = n.chart(pair.q);
+        const auto opposite = on.opposite(n.N.data(), pair);
+        PartMatrix slope = on.block(n.S.data(), pair);
+        if (pair.p == pair.q) {
+            const GroupFactor& factor = mechanics_.group->factors()[static_cast<std::size_t>(pair.p)];
+            const GroupFactor::Vector f = part(n.f, on, pair.p);
+            for (int k = 0; k < factor.d; ++k) slope.col(k) -= factor.constants.coadjointOfBasis(k, f);
+        }
+        ForceBy by{slope.lazyProduct(chart.A), opposite.transpose().lazyProduct(chart.A)};
+        by.xi += opposite.transpose().lazyProduct(chart.D);
+        return by;
+    }
+
+    /// The same as matrices of the product, for a tangent map: A, D, S and N times a vector.
     struct ForceSlope {
-        Vector f;
-        Matrix A, D, S, N;
+        Node node;
+        struct Coupled {
+            const Couplings* on;
+            const std::vector<double>* values;
+            bool isTransposed = false;
+            Coupled transpose() const { return {on, values, !isTransposed}; }
+            Vector operator*(const Vector& x) const {
+                return isTransposed ? on->transposedTimes(values->data(), x) : on->times(values->data(), x);
+            }
+        };
+        struct Diagonal {
+            const Node* node;
+            PartMatrix ChartDerivatives::*of;
+            bool isTransposed = false;
+            Diagonal transpose() const { return {node, of, !isTransposed}; }
+            Vector operator*(const Vector& x) const {
+                const Couplings& on = *node->couplings;
+                Vector y(x.size());
+                for (int p = 0; p < on.parts(); ++p) {
+                    const PartMatrix& block = node->chart(p).*of;
+                    const auto own = x.segment(on.first(p), on.size(p));
+                    if (isTransposed)
+                        y.segment(on.first(p), on.size(p)) = block.transpose().lazyProduct(own);
+                    else
+                        y.segment(on.first(p), on.size(p)) = block.lazyProduct(own);
+                }
+                return y;
+            }
+        };
+        const Vector& f() const { return node.f; }
+        Diagonal A() const { return {&node, &ChartDerivatives::A}; }
+        Diagonal D() const { return {&node, &ChartDerivatives::D}; }
+        Coupled S() const { return {node.couplings.get(), &node.S}; }
+        Coupled N() const { return {node.couplings.get(), &node.N}; }
     };
-    Second second(DataChart<2>& at, const Vector& v) const {
-        ForceSlope unused;
-        return second(nullptr, at, v, unused);
-    }
-    Second second(const MatrixGroup::Entries& g, DataChart<2>& at, const Vector& v, ForceSlope& F) const {
-        return second(g.data(), at, v, F);
-    }
     ForceSlope forceSlope(const MatrixGroup::Entries& g, DataChart<2>& at, const Vector& v) const {
-        ForceSlope F;
-        second(g.data(), at, v, F);
-        return F;
+        return {node(g.data(), at, v)};
+    }
+
+    /// The second derivatives of the whole product, for the element kernel.
+    struct Whole {
+        Eigen::MatrixXd xiXi, vXi, vv;
+    };
+    Whole whole(const MatrixGroup::Entries* g, DataChart<2>& at, const Vector& v) const {
+        const Node n = node(g ? g->data() : nullptr, at, v);
+        const Couplings& on = *n.couplings;
+        Whole w;
+        for (Eigen::MatrixXd* const each : {&w.xiXi, &w.vXi, &w.vv})
+            *each = Eigen::MatrixXd::Zero(v.size(), v.size());
+        for (const Couplings::Pair& pair : on.pairs()) {
+            const Second s = second(n, at, pair);
+            const auto put = [&](Eigen::MatrixXd& to, const PartMatrix& of) {
+                to.block(on.first(pair.p), on.first(pair.q), on.size(pair.p), on.size(pair.q)) = of;
+            };
+            put(w.xiXi, s.xiXi);
+            put(w.vXi, s.vXi);
+            put(w.vv, s.vv);
+        }
+        return w;
     }
 
     template <class Columns>
@@ -87,39 +215,17 @@ struct ChartLagrangian<double, DataGroup> {
     }
 
 private:
-    Second second(const double* g, DataChart<2>& at, const Vector& v, ForceSlope& F) const {
-        const Vector eta = at.sweep(v);
-        const auto d = eta.size();
-        Vector m(d), forXi, forV;
-        Matrix M(d, d);
-        double L = 0;
-        if (g) {
-            F.f.resize(d);
-            F.N.resize(d, d);
-            F.S.resize(d, d);
+    static GroupFactor::Vector part(const Vector& of, const Couplings& on, int p) {
+        return of.segment(on.first(p), on.size(p));
+    }
+    void keepSpread(const Node& n) const {
+        double least = std::numeric_limits<double>::infinity(), most = 0;
+        for (int i = 0; i < n.couplings->dimension(); ++i) {
+            const double own = std::abs(n.M[n.couplings->place(i, i)]);
+            least = std::min(least, own);
+            most = std::max(most, own);
         }
-        mechanics_.jet(mechanics_.model.get(), g, eta.data(), &L, m.data(), g ? F.f.data() : nullptr,
-                       M.data(), g ? F.N.data() : nullptr, g ? F.S.data() : nullptr);
-        const auto rows = M.diagonal().cwiseAbs();
-        spread_ = rows.minCoeff() > 0 ? rows.maxCoeff() / rows.minCoeff() : 1;
-        at.pull(m, forXi, forV);
-        auto chart = at.derivatives();
-        Second s;
-        const Matrix MA = M.lazyProduct(chart.A);
-        Matrix change = M.lazyProduct(chart.D);  // of m with xi
-        s.vv = chart.A.transpose().lazyProduct(MA);
-        s.xiXi = chart.H;
-        if (g) {
-            change += F.N.lazyProduct(chart.A);
-            const Matrix ofForce = F.S.lazyProduct(chart.A) + F.N.transpose().lazyProduct(chart.D);
-            s.xiXi += at.derivativeOfTransposed(F.f) + chart.A.transpose().lazyProduct(ofForce);
-        }
-        s.vXi = chart.B + chart.A.transpose().lazyProduct(change);
-        s.xiXi += chart.D.transpose().lazyProduct(change);
-        s.A = chart.A;
-        F.A = chart.A;
-        F.D = chart.D;
-        return s;
+        spread_ = least > 0 ? most / least : 1;
     }
 
     GroupMechanics mechanics_;
@@ -213,7 +319,7 @@ private:
         if (isFound && !mechanics_.isInvariant)
             mechanics_.gradient(mechanics_.model.get(), g.data(), eta.data(), &value, m.data(), f.data());
         if (at.xi.isZero(0)) isFound_ = isFound_ && isFound && f.allFinite();
-        return {series::inverseOfDexp(group, at.xi, eta), group.coadjoint(eta, at.mu) + f};
+        return {series::inverseOfDexp(group.constants(), at.xi, eta), group.coadjoint(eta, at.mu) + f};
     }
     Move after(const Move& at, double t) {
         const auto along = [](const Move& from, double s, const Move& slope) -> Move {

@@ -40,6 +40,8 @@
 #include "engine/family/lie/chart_lagrangian.hpp"
 #include "engine/family/lie/lie_groups.hpp"
 #include "engine/family/lie/lie_guess.hpp"
+#include "engine/family/lie/product_blocks.hpp"
+#include "engine/solve/block_lu.hpp"
 #include "engine/solve/newton_policy.hpp"
 #include "engine/solve/small_lu.hpp"
 
@@ -83,6 +85,8 @@ private:
     using Square = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
     using Flat = Eigen::Matrix<T, Eigen::Dynamic, 1>;
     using Lagrangian = ChartLagrangian<T, G>;
+    /// Of a product: the matrix is one of blocks, some of which are not there (product_jacobian.hpp).
+    static constexpr bool isCoupled = requires(const Lagrangian& L) { L.couplings(); };
     /// Of a space on which the group acts: equations xi_k = 0 in place of some (data_group.hpp).
     static constexpr bool hasIsotropy = requires(const G& group) { group.isotropy(); };
     int m() const { return table_.unknowns(); }
@@ -100,9 +104,15 @@ private:
     bool predict();
     void residual();
     /// The matrix of lu_, to be filled.
-    auto jacobian() { return Eigen::Map<Square>(lu_.column(0), d() * m(), d() * m()); }
+    auto jacobian() requires(!isCoupled) { return Eigen::Map<Square>(lu_.column(0), d() * m(), d() * m()); }
     Outcome assembleJacobian();
-    void addForceAt(int i, const typename G::template Chart<2>& at, const typename Lagrangian::ForceSlope& F);
+    void fillJacobian() requires(!isCoupled);
+    void fillJacobian() requires(isCoupled);
+    void addForceAt(int i, const typename G::template Chart<2>& at,
+                    const typename Lagrangian::ForceSlope& F) requires(!isCoupled);
+    template <class Node>
+    void addForceAt(int i, const typename G::template Chart<2>& at, const Node& node,
+                    const Couplings::Pair& pair);
     T correction();
     void correct();
     void updateImpulse();
@@ -113,6 +123,10 @@ private:
         return [this, i](int a) {
             return testFunction(table_.weight(i), h_, table_.value(i, a), table_.derivative(i, a));
         };
+    }
+
+    auto trialAt(int i) const {
+        return [this, i](int c) { return TrialFunction<T>{table_.value(i, c), table_.derivative(i, c)}; };
     }
 
     G group_;
@@ -133,7 +147,8 @@ private:
     Columns Y_, xi_, v_, force_, R_;
     Square atPoints_, fit_;  ///< (k, a): values at m points from Y, and the opposite
     Columns points_;
-    SmallLu<T> lu_;  ///< the Jacobian, then its factors
+    std::conditional_t<isCoupled, BlockLu, SmallLu<T>> lu_;  ///< the Jacobian, then its factors
+    bool isJoined_ = false;                                  ///< in one block
     Flat flat_;
     std::vector<T> times_;  ///< of the m points
     StepReport* report_ = nullptr;

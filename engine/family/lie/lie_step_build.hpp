@@ -11,6 +11,7 @@
 #include "engine/core/algebra/dense.hpp"
 #include "engine/family/lie/lie_step.hpp"
 #include "engine/family/lie/lie_step_tangent.hpp"
+#include "engine/family/lie/product_jacobian.hpp"
 
 namespace extremal {
 
@@ -30,7 +31,10 @@ LieStep<T, G>::LieStep(const Mechanics& mechanics, Table<T> table, const T& step
     for (Columns* c : {&xi_, &v_, &force_}) *c = Columns::Zero(d(), nodes());
     W_ = mu_ = Vector::Zero(d());
     const int size = d() * m();
-    lu_ = SmallLu<T>(size);
+    if constexpr (isCoupled)
+        lu_ = blocksOf(lagrangian_.couplings(), m(), false);
+    else
+        lu_ = SmallLu<T>(size);
     flat_ = Flat::Zero(size);
     // Y from the values of xi at m points, and back.
     const std::vector<T> points = lobatto<T>(m() + 1).c;
@@ -105,7 +109,7 @@ void LieStep<T, G>::residual() {
 /// unknown of an adjoint step, and through W.
 template <class T, class G>
 void LieStep<T, G>::addForceAt(int i, const typename G::template Chart<2>& at,
-                               const typename Lagrangian::ForceSlope& F) {
+                               const typename Lagrangian::ForceSlope& F) requires(!isCoupled) {
     auto jacobian = this->jacobian();
     const int last = d() * (m() - 1);
     const Vector xiEnd = Y_.col(m() - 1);
@@ -114,43 +118,26 @@ void LieStep<T, G>::addForceAt(int i, const typename G::template Chart<2>& at,
         // The base point moves by -dexp(-xi_s) with the last unknown, and the node with it.
         Matrix moved = opposite.dexpMatrix();
         for (int k = 0; k < d(); ++k) moved.col(k) = (-at.rotateBack(moved.col(k))).eval();
-        Matrix onXi = F.A.transpose() * F.S * moved, onV = Matrix::Zero(d(), d());
-        if constexpr (Lagrangian::isMixed) {
-            const Matrix change = F.N.lazyProduct(moved);
-            onXi += F.D.transpose().lazyProduct(change);
-            onV = F.A.transpose().lazyProduct(change);
-        }
-        addGradient(m(), testAt(i), onXi, onV,
+        addGradient(m(), testAt(i), Matrix(F.A().transpose() * F.S() * moved), Matrix(Matrix::Zero()),
                     [&](int a) { return jacobian.template block<n, n>(d() * a, last, d(), d()); });
         return;
     }
-    // dexp(-xi_s)^T dW, with what xi and xi' do to the force.
-    Matrix byXi = (F.S - group_.precessionMatrix(F.f)) * F.A, byV = Matrix::Zero(d(), d());
-    if constexpr (Lagrangian::isMixed) {
-        byXi += F.N.transpose().lazyProduct(F.D);
-        byV = F.N.transpose().lazyProduct(F.A);
-    }
-    const auto carried = [&](Matrix& of) {
-        for (int k = 0; k < d(); ++k)
-            of.col(k) = end.dexpRightTransposed(at.rotateMomentum(of.col(k))).eval();
-    };
-    carried(byXi);
-    if constexpr (Lagrangian::isMixed) carried(byV);
-    for (int a = 0; a < m(); ++a) {
-        auto block = jacobian.template block<n, n>(last, d() * a, d(), d());
-        block -= (table_.weight(i) * h_ * table_.value(i, a)) * byXi;
-        if constexpr (Lagrangian::isMixed) block -= (table_.weight(i) * table_.derivative(i, a)) * byV;
-    }
+    // dexp(-xi_s)^T dW, with what xi does to the force.
+    Matrix byXi = (F.S() - group_.precessionMatrix(F.f())) * F.A();
+    for (int k = 0; k < d(); ++k)
+        byXi.col(k) = end.dexpRightTransposed(at.rotateMomentum(byXi.col(k))).eval();
+    for (int a = 0; a < m(); ++a)
+        jacobian.template block<n, n>(last, d() * a, d(), d()) -=
+            (table_.weight(i) * h_ * table_.value(i, a)) * byXi;
 }
 
-/// dR/dY at the present Y, and its factorisation.
+/// dR/dY at the present Y.
 template <class T, class G>
-Outcome LieStep<T, G>::assembleJacobian() {
+void LieStep<T, G>::fillJacobian() requires(!isCoupled) {
     auto jacobian = this->jacobian();
     jacobian.setZero();
-    if (isUnreduced_) placeFoot();
     for (int i = 0; i < nodes(); ++i) {
-        typename G::template Chart<2> at = group_.template chart<2>(xi_.col(i));
+        const typename G::template Chart<2> at = group_.template chart<2>(xi_.col(i));
         typename Lagrangian::Second L;
         if (lagrangian_.isFree()) {
             L = lagrangian_.second(at, v_.col(i));
@@ -160,28 +147,34 @@ Outcome LieStep<T, G>::assembleJacobian() {
             addForceAt(i, at, F);
         }
         const Matrix xiV = L.vXi.transpose();
-        addHessian(
-            m(), m(), testAt(i),
-            [&](int c) {
-                return TrialFunction<T>{table_.value(i, c), table_.derivative(i, c)};
-            },
-            L.xiXi, xiV, L.vXi, L.vv,
-            [&](int a, int c) { return jacobian.template block<n, n>(d() * a, d() * c, d(), d()); });
+        addHessian(m(), m(), testAt(i), trialAt(i), L.xiXi, xiV, L.vXi, L.vv,
+                   [&](int a, int c) { return jacobian.template block<n, n>(d() * a, d() * c, d(), d()); });
     }
     const auto end = group_.template chart<1>(Y_.col(m() - 1));
     const int last = d() * (m() - 1);
     jacobian.template block<n, n>(last, last, d(), d()) -=
         isAdjoint_ ? end.derivativeOfTransposed(mu_) : end.derivativeOfRightTransposed(mu_ - W_);
-    if constexpr (hasIsotropy)
-        for (const int k : group_.isotropy())
-            for (int row = k; row < d() * m(); row += d()) {
-                jacobian.row(row).setZero();
-                jacobian(row, row) = 1;
-            }
+}
+
+/// The Jacobian at the present Y, and its factorisation.
+template <class T, class G>
+Outcome LieStep<T, G>::assembleJacobian() {
+    if (isUnreduced_) placeFoot();
+    fillJacobian();
     report_->cost.evaluations += nodes();
     ++report_->cost.linearSolves;
     // Inertias far apart make pivots far apart; only what is lost in round-off is singular.
-    return lu_.factorise();
+    const Outcome factorised = lu_.factorise();
+    if constexpr (isCoupled) {
+        // A factor that is singular alone need not be so beside others.
+        if (factorised == Outcome::singular && !isJoined_) {
+            isJoined_ = true;
+            lu_ = blocksOf(lagrangian_.couplings(), m(), true);
+            fillJacobian();
+            return lu_.factorise();
+        }
+    }
+    return factorised;
 }
 
 /// Solves for the correction of Y from R, in flat_; returns its size relative to the unknowns.

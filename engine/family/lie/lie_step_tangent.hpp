@@ -29,17 +29,16 @@ typename LieStep<T, G>::Vector LieStep<T, G>::vary(const Vector& base, bool move
             dXi += table_.value(i, a) * part(a);
             if constexpr (Lagrangian::isMixed) dV += (table_.derivative(i, a) / h_) * part(a);
         }
-        const Vector moved = F.A * dXi, along = at.rotateBack(base) + moved;
-        Vector df = F.S * along;
-        if constexpr (Lagrangian::isMixed)
-            df += F.N.transpose().lazyProduct(F.D.lazyProduct(dXi) + F.A.lazyProduct(dV));
-        dW -= (h_ * table_.weight(i)) * at.rotateMomentum(df - group_.precession(F.f, moved));
+        const Vector moved = F.A() * dXi, along = at.rotateBack(base) + moved;
+        Vector df = F.S() * along;
+        if constexpr (Lagrangian::isMixed) df += F.N().transpose() * Vector(F.D() * dXi + F.A() * dV);
+        dW -= (h_ * table_.weight(i)) * at.rotateMomentum(df - group_.precession(F.f(), moved));
         if (movesY) continue;
-        Vector onXi = F.A.transpose() * df, onV = Vector::Zero(d());
+        Vector onXi = F.A().transpose() * df, onV = Vector::Zero(d());
         if constexpr (Lagrangian::isMixed) {
-            const Vector change = F.N.lazyProduct(along);
-            onXi += F.D.transpose().lazyProduct(change);
-            onV = F.A.transpose().lazyProduct(change);
+            const Vector change = F.N() * along;
+            onXi += F.D().transpose() * change;
+            onV = F.A().transpose() * change;
         }
         addGradient(m(), testAt(i), onXi, onV, [&](int a) { return R_.col(a); });
     }

@@ -7,23 +7,25 @@
 #include <limits>
 
 #include "engine/group/algebra_series.hpp"
+#include "engine/group/group_factor.hpp"
 
 namespace extremal {
 
 struct ChartDerivatives {
-    MatrixGroup::Matrix A, D;  ///< dexp(xi), and the slope of dexp(xi) v by xi
-    MatrixGroup::Matrix B, H;  ///< that of dexp(xi)^T m by xi, and the second one of m . dexp(xi) v
+    GroupFactor::Matrix A, D;  ///< dexp(xi), and the slope of dexp(xi) v by xi
+    GroupFactor::Matrix B, H;  ///< that of dexp(xi)^T m by xi, and the second one of m . dexp(xi) v
 };
 
 class SeriesChart {
 public:
-    using Vector = MatrixGroup::Vector;
-    using Matrix = MatrixGroup::Matrix;
+    using Vector = GroupFactor::Vector;
+    using Matrix = GroupFactor::Matrix;
 
-    SeriesChart(const MatrixGroup& group, const Vector& xi)
-        : group_(group),
+    SeriesChart(const GroupFactor& group, const Vector& xi)
+        : group_(group.constants),
           xi_(xi),
-          terms_(series::termsFor(group.adNorm(xi), 0.1 * std::numeric_limits<double>::epsilon())) {}
+          terms_(series::termsFor(group.constants.adNorm(xi), 0.1 * std::numeric_limits<double>::epsilon())) {
+    }
 
     Vector rotateBack(const Vector& v) const {
         return series::exponential(v, terms_, [&](const Vector& y) -> Vector { return -bracket(y); });
@@ -96,7 +98,7 @@ public:
 private:
     using Sweep = std::array<Vector, series::mostTerms>;
     static std::size_t at(int n) { return static_cast<std::size_t>(n); }
-    int d() const { return group_.dimension(); }
+    int d() const { return static_cast<int>(xi_.size()); }
     Vector bracket(const Vector& y) const { return group_.bracket(xi_, y); }
     Vector coadjoint(const Vector& m) const { return group_.coadjoint(xi_, m); }
     /// The last of the lambda is m / N!.
@@ -133,7 +135,7 @@ private:
         return B;
     }
 
-    const MatrixGroup& group_;
+    const StructureConstants& group_;
     Vector xi_;
     int terms_;
     Sweep w_, lambda_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A Lagrangian on a matrix group, left trivialised: L(g, eta), eta = g^-1 g' in coordinates of the algebra.
 ///
-/// With the basis E_a of the algebra (group/matrix_group.hpp), all arrays of d entries or d x d, column after
-/// column:
+/// With the basis E_a of the algebra (group/matrix_group.hpp), arrays of d entries, or matrices in the
+/// layout of the couplings of factors (group/couplings.hpp; of one factor d x d, column after column):
 ///     m_a = dL/deta_a,   f_a = dL/dg . (g E_a)  (the part of a kinetic energy that depends on g included),
 ///     M_ab = d2L/deta_a deta_b,   N_ab: the derivative of m_a along g exp(eps E_b),   S_ab: that of f_a.
 /// S is not symmetric: its antisymmetric part is the bracket with f. The state of a run is the entries of g,
@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/group/couplings.hpp"
 #include "engine/group/group_invariants.hpp"
 #include "engine/group/matrix_group.hpp"
 
@@ -21,6 +22,7 @@ namespace extremal {
 struct GroupMechanics {
     std::shared_ptr<const MatrixGroup> group;
     std::shared_ptr<const GroupInvariants> invariants;  ///< of the group
+    std::shared_ptr<const Couplings> couplings;         ///< of the factors in L: where M, N and S are not 0
     std::shared_ptr<const void> model;                  ///< first argument of the calls below
     bool isInvariant = true;         ///< g does not occur in L: f, N and S are 0, and g may be null
     bool isMixed = false;            ///< N is not 0 everywhere

@@ -10,6 +10,7 @@
 #include "engine/model/body/rigid.hpp"
 #include "engine/model/group/group_system.hpp"
 #include "engine/model/group/named_groups.hpp"
+#include "engine/model/group/second_derivatives.hpp"
 
 namespace extremal::groups {
 namespace {
@@ -22,12 +23,12 @@ constexpr double apart = 3;  ///< middles of bodies that stand side by side
 std::vector<double> inertiaOf(const GroupMechanics& on) {
     const int d = on.dimension();
     const MatrixGroup::Entries g = on.group->identity();
-    MatrixGroup::Vector eta = MatrixGroup::Vector::Zero(d), m(d);
-    MatrixGroup::Matrix M(d, d);
-    double value = 0;
-    on.jet(on.model.get(), g.data(), eta.data(), &value, m.data(), nullptr, M.data(), nullptr, nullptr);
+    const SecondDerivatives second(on, g.data(), MatrixGroup::Vector::Zero(d), false);
     std::vector<double> diagonal;
-    for (int i = 0; i < d; ++i) diagonal.push_back(M(i, i) > 0 && std::isfinite(M(i, i)) ? M(i, i) : 1);
+    for (int i = 0; i < d; ++i) {
+        const double own = second.M[on.couplings->place(i, i)];
+        diagonal.push_back(own > 0 && std::isfinite(own) ? own : 1);
+    }
     return diagonal;
 }
 

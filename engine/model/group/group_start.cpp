@@ -4,20 +4,19 @@
 #include <cmath>
 #include <string>
 
-#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/group/group_flow.hpp"
 #include "engine/model/group/group_system.hpp"
 #include "engine/model/group/named_groups.hpp"
+#include "engine/model/group/second_derivatives.hpp"
 #include "engine/model/group/typed_group.hpp"
 
 namespace extremal::groups {
 namespace {
 
 using Vector = MatrixGroup::Vector;
-using Matrix = MatrixGroup::Matrix;
 using Entries = MatrixGroup::Entries;
 using Factor = MatrixGroup::Factor;
 
@@ -62,8 +61,7 @@ Vector readVector(const MatrixGroup& group, const Value& given, const std::strin
     return v;
 }
 
-void readElement(const MatrixGroup& group, const Value& given, const std::string& pointer, const Factor& f,
-                 Entries& g) {
+void readElement(const Value& given, const std::string& pointer, const Factor& f, Entries& g) {
     if (given.isString() && given.asString() == "identity") return;
     Eigen::Map<MatrixGroup::Square> to(g.data() + f.entry, f.n, f.n);
     if (given.isArray()) {
@@ -74,9 +72,9 @@ void readElement(const MatrixGroup& group, const Value& given, const std::string
     if (!way || given.asObject().size() != 1)
         throw InvalidScene(pointer, "is not an element of the group",
                            "\"identity\", the rows of a matrix, or {\"exp\": [coordinates]}");
-    Vector xi = Vector::Zero(group.dimension());
-    readList(*way, pointer + "/exp", f.d, xi.data() + f.coordinate);
-    to = group.part(f, group.exponential(xi));
+    GroupFactor::Vector xi(f.d);
+    readList(*way, pointer + "/exp", f.d, xi.data());
+    to = f.exponential(xi);
 }
 
 Entries readStart(const GroupMechanics& on, const Value* given) {
@@ -84,10 +82,10 @@ Entries readStart(const GroupMechanics& on, const Value* given) {
     Entries g = group.identity();
     if (!given || given->isNull()) return g;
     if (!isProduct(group)) {
-        readElement(group, *given, "/g", group.factors()[0], g);
+        readElement(*given, "/g", group.factors()[0], g);
     } else if (given->isObject()) {
         readByFactor(group, *given, "/g", [&](const Value& value, const std::string& at, const Factor& f) {
-            readElement(group, value, at, f, g);
+            readElement(value, at, f, g);
         });
     } else if (!given->isString() || given->asString() != "identity") {
         throw InvalidScene("/g", "must be \"identity\", or an object of elements by factor",
@@ -132,7 +130,7 @@ std::vector<double> startOf(const GroupMechanics& on, const Settings& initial) {
     } else {
         m = readVector(group, *mu, "/mu");
     }
-    const Vector J = group.adjoint(group.inverse(g), g).transpose().lazyProduct(m);
+    const Vector J = group.inSpace(g, m);
     std::vector<double> x(g.data(), g.data() + g.size());
     x.insert(x.end(), m.data(), m.data() + d);
     x.insert(x.end(), J.data(), J.data() + d);
@@ -143,23 +141,15 @@ std::vector<double> startOf(const GroupMechanics& on, const Settings& initial) {
 void checkRegular(const GroupMechanics& on, const State& initial) {
     const int d = on.dimension();
     const double *const g = initial.x.data(), *const mu = g + on.group->entries();
-    Vector eta = Vector::Zero(d), m(d);
-    Matrix M(d, d);
+    Vector eta = Vector::Zero(d);
     const bool isFound = on.velocity(on.model.get(), g, mu, eta.data());
-    double value = 0;
-    on.jet(on.model.get(), g, eta.data(), &value, m.data(), nullptr, M.data(), nullptr, nullptr);
-    if (!std::isfinite(value) || !m.allFinite() || !M.allFinite())
+    const SecondDerivatives second(on, g, eta, false);
+    if (!second.isFinite())
         throw InvalidScene("/lagrangian", "is not finite, or has no finite derivatives, at the initial data",
                            "another start, or a Lagrangian that has a meaning there");
     const std::vector<std::string> names = velocityNames(*on.group);
-    const dense::SymmetricEigen<double> eigen = dense::symmetricEigen<double>(M);
-    Eigen::Index least = 0;
-    const double smallest = eigen.values.cwiseAbs().minCoeff(&least),
-                 largest = eigen.values.cwiseAbs().maxCoeff();
-    if (smallest <= 1e-12 * largest || largest == 0) {
+    if (const auto [ratio, null] = second.leastInertia({}); ratio <= 1e-12) {
         std::string direction;
-        const Eigen::VectorXd null =
-            eigen.vectors.col(least) / eigen.vectors.col(least).cwiseAbs().maxCoeff();
         for (int i = 0; i < d; ++i)
             if (std::abs(null(i)) > 1e-6)
                 direction += (direction.empty() ? "" : ", ") + names[static_cast<std::size_t>(i)] + ": " +

@@ -52,8 +52,10 @@ Eigen::MatrixXd keptDirections(const GroupMechanics& mechanics) {
         return v;
     };
     Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(d, d);
+    // Each probe tells of one direction; of many factors a few more than directions do.
     int found = 0;
-    for (int attempt = 0; attempt < 8 * probes && found < probes * d; ++attempt) {
+    const int wanted = std::min(probes * d, 2 * d + 24 * probes);
+    for (int attempt = 0; attempt < 8 * wanted && found < wanted; ++attempt) {
         const MatrixGroup::Entries g =
             group.product(group.exponential(0.7 * vector()), group.exponential(vector()));
         const Vector eta = vector();
@@ -61,19 +63,19 @@ Eigen::MatrixXd keptDirections(const GroupMechanics& mechanics) {
         double value = 0;
         mechanics.gradient(mechanics.model.get(), g.data(), eta.data(), &value, m.data(), f.data());
         if (!f.allFinite()) continue;
-        const MatrixGroup::Matrix back = group.adjoint(group.inverse(g), g);
-        const Vector row = back.transpose().lazyProduct(f);
-        const double scale = back.cwiseAbs().transpose().lazyProduct(f.cwiseAbs()).norm();
+        Vector sums;
+        const Vector row = group.inSpace(g, f, &sums);
+        const double scale = sums.norm();
         ++found;
-        if (scale > 0) squares += row.lazyProduct(row.transpose()) / (scale * scale);
+        if (scale > 0) squares.selfadjointView<Eigen::Lower>().rankUpdate(row, 1 / (scale * scale));
     }
+    squares.triangularView<Eigen::StrictlyUpper>() = squares.transpose();
     if (found == 0) return Eigen::MatrixXd(d, 0);
     return nullSpaceOf(squares, roundOff * found);
 }
 
-std::vector<Eigen::MatrixXd> quadraticCasimirs(const MatrixGroup& group) {
-    std::vector<Eigen::MatrixXd> all;
-    const int whole = group.dimension();
+std::vector<Casimir> quadraticCasimirs(const MatrixGroup& group) {
+    std::vector<Casimir> all;
     for (const MatrixGroup::Factor& f : group.factors()) {
         const int d = f.d, size = d * (d + 1) / 2;
         std::vector<Eigen::MatrixXd> units;
@@ -86,8 +88,9 @@ std::vector<Eigen::MatrixXd> quadraticCasimirs(const MatrixGroup& group) {
         Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(size, size), A(d * d, size);
         double largest = 0;
         for (int k = 0; k < d; ++k) {
-            const Eigen::MatrixXd ad =
-                group.ad(Vector::Unit(whole, f.coordinate + k)).block(f.coordinate, f.coordinate, d, d);
+            Eigen::MatrixXd ad(d, d);
+            for (int j = 0; j < d; ++j)
+                ad.col(j) = f.constants.bracketOfBasis(k, Eigen::VectorXd(Eigen::VectorXd::Unit(d, j)));
             for (int u = 0; u < size; ++u) {
                 const Eigen::MatrixXd& Q = units[static_cast<std::size_t>(u)];
                 const Eigen::MatrixXd image = ad.lazyProduct(Q) + Q.lazyProduct(ad.transpose());
@@ -98,10 +101,9 @@ std::vector<Eigen::MatrixXd> quadraticCasimirs(const MatrixGroup& group) {
         }
         const Eigen::MatrixXd basis = nullSpaceOf(squares, 1e-10 * std::max(largest, 1.0));
         for (Eigen::Index k = 0; k < basis.cols(); ++k) {
-            Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(whole, whole);
-            for (int u = 0; u < size; ++u)
-                Q.block(f.coordinate, f.coordinate, d, d) += basis(u, k) * units[static_cast<std::size_t>(u)];
-            all.push_back(Q);
+            Eigen::MatrixXd Q = Eigen::MatrixXd::Zero(d, d);
+            for (int u = 0; u < size; ++u) Q += basis(u, k) * units[static_cast<std::size_t>(u)];
+            all.push_back({f.coordinate, Q});
         }
     }
     return all;

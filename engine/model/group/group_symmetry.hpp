@@ -18,7 +18,11 @@ namespace extremal::groups {
 
 /// Columns zeta.
 Eigen::MatrixXd keptDirections(const GroupMechanics& mechanics);
-/// Symmetric d x d; each is a form of one factor.
-std::vector<Eigen::MatrixXd> quadraticCasimirs(const MatrixGroup& group);
+/// A form of one factor, symmetric, and the first of the coordinates it is a form in.
+struct Casimir {
+    int coordinate;
+    Eigen::MatrixXd Q;
+};
+std::vector<Casimir> quadraticCasimirs(const MatrixGroup& group);
 
 }  // namespace extremal::groups

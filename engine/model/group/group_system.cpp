@@ -12,7 +12,10 @@
 #include "engine/model/group/group_flow.hpp"
 #include "engine/model/group/group_symmetry.hpp"
 #include "engine/model/group/lie_group.hpp"
+#include "engine/model/group/second_derivatives.hpp"
 #include "engine/model/group/typed_group.hpp"
+#include "engine/model/typed/phase/typed_variables.hpp"
+#include "engine/model/typed/written_out.hpp"
 
 namespace extremal::groups {
 namespace {
@@ -73,7 +76,7 @@ bool rate(const GroupMechanics& on, const double* x, double* dx) {
     Eigen::Map<Vector> dJ(dx + n + d, d);
     if (!on.isInvariant) {
         on.gradient(on.model.get(), at.g, eta.data(), &value, m.data(), f.data());
-        dJ = group.adjoint(group.inverse(g), g).transpose().lazyProduct(f);
+        dJ = group.inSpace(g, f);
     }
     Eigen::Map<Vector>(dx + n, d) = group.coadjoint(eta, Eigen::Map<const Vector>(at.mu, d)) + f;
     return eta.allFinite();
@@ -91,16 +94,11 @@ double energyAt(const GroupMechanics& on, const double* x) {
 /// How fast the frame turns, or swings: the larger.
 double frequencyAt(const GroupMechanics& on, const double* x) {
     const Place at(on, x);
-    const int d = on.dimension();
     const Vector eta = velocityAt(on, at);
     const double turning = on.group->adNorm(eta);
     if (on.isInvariant) return turning;
-    Vector m(d), f(d);
-    Matrix M(d, d), N(d, d), S(d, d);
-    double value = 0;
-    on.jet(on.model.get(), at.g, eta.data(), &value, m.data(), f.data(), M.data(), N.data(), S.data());
-    const Matrix ratio = dense::solve<double>(M, S);
-    const double swinging = std::sqrt(ratio.cwiseAbs().rowwise().sum().maxCoeff());
+    const SecondDerivatives second(on, at.g, eta);
+    const double swinging = std::sqrt(second.largestRatio({}));
     return std::isfinite(swinging) ? std::max(turning, swinging) : turning;
 }
 
@@ -162,7 +160,7 @@ void describeKept(System& system, const GroupMechanics& on) {
              }});
     }
     if (!on.isInvariant) return;
-    const std::vector<Eigen::MatrixXd> forms = quadraticCasimirs(*on.group);
+    const std::vector<Casimir> forms = quadraticCasimirs(*on.group);
     if (forms.empty()) return;
     std::vector<Quantity> columns;
     for (std::size_t k = 0; k < forms.size(); ++k)
@@ -170,8 +168,8 @@ void describeKept(System& system, const GroupMechanics& on) {
                            k == 0 ? "C" : "C_" + std::to_string(k + 1), ""});
     system.measures.push_back(casimirMeasure(
         std::move(columns), [forms, n = on.group->entries()](double, const double* x, double* values) {
-            for (const Eigen::MatrixXd& Q : forms) {
-                const Eigen::Map<const Eigen::VectorXd> mu(x + n, Q.rows());
+            for (const auto& [coordinate, Q] : forms) {
+                const Eigen::Map<const Eigen::VectorXd> mu(x + n + coordinate, Q.rows());
                 *values++ = mu.dot(Q * mu);
             }
         }));
@@ -205,7 +203,9 @@ System systemOf(const Settings& settings) {
     };
     s.rate = [on](double, const double* x, double* dx) { return rate(on, x, dx); };
     s.frequency = [on](double, const double* x) { return frequencyAt(on, x); };
-    s.start = [on](const Settings& initial, double) { return startOf(on, initial); };
+    s.start = [on, parameters = typed::parametersOf(settings)](const Settings& initial, double) {
+        return startOf(on, typed::startWrittenOut(initial, parameters));
+    };
     s.measures.push_back({"group-distance",
                           {{"group-distance", "", "|g - G|", ""}},
                           0,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "engine/core/problem.hpp"
@@ -74,11 +75,11 @@ Square basisMatrix(const Value& given, const std::string& pointer, int n) {
                            "both parts of a complex matrix, of the same size");
     const Square re = matrixOf(*real, pointer + "/re", n / 2);
     const auto size = static_cast<int>(re.rows());
-    if (2 * size > MatrixGroup::maxFactorSize)
+    if (2 * size > GroupFactor::maxSize)
         throw InvalidScene(pointer,
                            "is complex and has " + std::to_string(size) +
                                " rows, which are twice as many real ones; the limit is " +
-                               std::to_string(MatrixGroup::maxFactorSize),
+                               std::to_string(GroupFactor::maxSize),
                            "a smaller representation");
     const Square im = matrixOf(*imaginary, pointer + "/im", size);
     Square E(2 * size, 2 * size);
@@ -129,11 +130,11 @@ Square matrixOf(const Value& given, const std::string& pointer, int n) {
     if (!given.isArray() || given.asArray().empty()) refuse("must be a matrix, given by its rows");
     const auto size = static_cast<int>(given.asArray().size());
     if (n > 0 && size != n) refuse("has " + std::to_string(size) + " rows");
-    if (size > MatrixGroup::maxFactorSize)
-        throw InvalidScene(pointer,
-                           "has " + std::to_string(size) + " rows; the limit is " +
-                               std::to_string(MatrixGroup::maxFactorSize),
-                           "a smaller representation, or a product of groups");
+    if (size > GroupFactor::maxSize)
+        throw InvalidScene(
+            pointer,
+            "has " + std::to_string(size) + " rows; the limit is " + std::to_string(GroupFactor::maxSize),
+            "a smaller representation, or a product of groups");
     Square m(size, size);
     for (int i = 0; i < size; ++i) {
         const Value& row = given.asArray()[static_cast<std::size_t>(i)];
@@ -154,18 +155,15 @@ MatrixGroup groupOf(const Value& given) {
         throw InvalidScene("/group/product", "must be an object of groups by name",
                            "{\"upper\": \"so3\", \"lower\": \"so3\"}, say");
     std::vector<MatrixGroup::Definition> factors;
-    int dimension = 0;
+    std::set<std::string> names;
     for (const auto& [name, factor] : product->asObject()) {
         const std::string pointer = "/group/product/" + name;
         if (const std::string problem = nameProblem(name); !problem.empty())
             throw InvalidScene(pointer, "the name \"" + name + "\" " + problem, "another name");
+        if (!names.insert(name).second)
+            throw InvalidScene(pointer, "the name \"" + name + "\" is given twice",
+                               "every factor has a name of its own");
         factors.push_back(factorOf(factor, name, pointer));
-        dimension += static_cast<int>(factors.back().basis.size());
-        if (dimension > MatrixGroup::maxDimension)
-            throw InvalidScene("/group/product",
-                               "has more than " + std::to_string(MatrixGroup::maxDimension) +
-                                   " dimensions with \"" + name + "\"",
-                               "fewer factors");
     }
     return MatrixGroup(factors);
 }

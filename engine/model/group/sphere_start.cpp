@@ -4,10 +4,10 @@
 #include <string>
 #include <utility>
 
-#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/group/second_derivatives.hpp"
 #include "engine/model/group/sphere_system.hpp"
 
 namespace extremal::spheres {
@@ -113,24 +113,14 @@ void checkRegular(const Spheres& on, const State& initial) {
     const int d = m.dimension();
     const MatrixGroup::Entries g = framesAt(m, initial.x.data());
     MatrixGroup::Vector eta = MatrixGroup::Vector::Zero(d), mu = bodyMomenta(g, initial.x.data() + d);
-    MatrixGroup::Matrix M(d, d);
     const bool isFound = m.velocity(m.model.get(), g.data(), mu.data(), eta.data());
-    double value = 0;
-    m.jet(m.model.get(), g.data(), eta.data(), &value, mu.data(), nullptr, M.data(), nullptr, nullptr);
-    if (!std::isfinite(value) || !mu.allFinite() || !M.allFinite())
+    const groups::SecondDerivatives second(m, g.data(), eta, false);
+    if (!second.isFinite())
         throw InvalidScene("/lagrangian", "is not finite, or has no finite derivatives, at the initial data",
                            "another start, or a Lagrangian that has a meaning there");
-    // Two directions of each sphere.
-    std::vector<int> moved;
-    for (int k = 0; k < d; ++k)
-        if (std::find(m.isotropy.begin(), m.isotropy.end(), k) == m.isotropy.end()) moved.push_back(k);
-    const dense::SymmetricEigen<double> eigen = dense::symmetricEigen<double>(M(moved, moved));
-    const Eigen::VectorXd sizes = eigen.values.cwiseAbs();
-    Eigen::Index least = 0;
-    if (const double smallest = sizes.minCoeff(&least); smallest <= 1e-12 * sizes.maxCoeff()) {
-        Eigen::Index most = 0;
-        eigen.vectors.col(least).cwiseAbs().maxCoeff(&most);
-        const int k = moved[static_cast<std::size_t>(most)];
+    if (const auto [ratio, null] = second.leastInertia(m.isotropy); ratio <= 1e-12) {
+        Eigen::Index k = 0;
+        null.cwiseAbs().maxCoeff(&k);
         throw InvalidScene("/lagrangian",
                            "is degenerate at the initial data: it has no inertia along a velocity of \"" +
                                on.names[static_cast<std::size_t>(k / 3)] +

@@ -11,8 +11,10 @@
 #include "engine/core/text/expression.hpp"
 #include "engine/model/group/group_symmetry.hpp"
 #include "engine/model/group/named_groups.hpp"
+#include "engine/model/group/second_derivatives.hpp"
 #include "engine/model/group/typed_group.hpp"
 #include "engine/model/parts/named_start.hpp"
+#include "engine/model/typed/formula.hpp"
 
 namespace extremal::spheres {
 namespace {
@@ -64,24 +66,14 @@ double energyAt(const GroupMechanics& on, const double* x) {
 /// How fast points go around their spheres, or swing: the larger.
 double frequencyAt(const GroupMechanics& on, const double* x) {
     const InFrames at(on, x);
-    const int d = on.dimension();
-    Vector m(d), f(d);
-    Matrix M(d, d), N(d, d), S(d, d);
-    double value = 0;
-    on.jet(on.model.get(), at.g.data(), at.eta.data(), &value, m.data(), f.data(), M.data(), N.data(),
-           S.data());
-    for (const int k : on.isotropy) {
-        M(k, k) = 1;
-        S.row(k).setZero();
-    }
     const double turning = on.group->adNorm(at.eta);
-    const Matrix ratio = dense::solve<double>(M, S);
-    const double swinging = std::sqrt(ratio.cwiseAbs().rowwise().sum().maxCoeff());
+    const groups::SecondDerivatives second(on, at.g.data(), at.eta);
+    const double swinging = std::sqrt(second.largestRatio(on.isotropy));
     return std::isfinite(swinging) ? std::max(turning, swinging) : turning;
 }
 
 std::vector<std::string> namesOf(const Settings& settings) {
-    constexpr std::size_t most = MatrixGroup::maxDimension / 3;
+    constexpr std::size_t most = typed::maxCoordinates / 5;  // two velocities and three entries each
     std::vector<std::string> names;
     for (const Value& each : settings.find("spheres")->asArray()) {
         const std::string pointer = "/spheres/" + std::to_string(names.size()), &name = each.asString();

@@ -3,21 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstddef>
+#include <iterator>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
-#include "engine/core/algebra/elimination.hpp"
+#include "engine/core/own_buffers.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/core/text/indexed.hpp"
 #include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/group/mass_solver.hpp"
 #include "engine/model/group/named_groups.hpp"
 #include "engine/model/typed/phase/typed_variables.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape.hpp"
 #include "engine/model/typed/tape_registers.hpp"
+#include "engine/model/typed/written_out.hpp"
 
 namespace extremal::groups {
 namespace {
@@ -26,24 +30,40 @@ using Vector = MatrixGroup::Vector;
 using Matrix = MatrixGroup::Matrix;
 using Parameters = std::vector<std::pair<std::string, double>>;
 
-/// What entry e of g E_a, or of g E_b E_a, is: a sum of value g_entry.
+/// What entry e of g E_a, or of g E_b E_a, is: a sum of value g_entry; a and b within the factor.
 struct Share {
     int a, b, entry;
     double value;
 };
 struct UsedEntry {
-    int entry = 0;
-    std::vector<Share> first, second;
+    int entry = 0, part = 0, first = 0, d = 0;  ///< its factor, and the coordinates of that
+    int move = 0;                       ///< the first of the d numbers that say how it moves along g E_a
+    std::vector<Share> shares, second;  ///< of g E_a, and of g E_b E_a
+};
+
+/// Where an entry of the Hessian by (xi, used entries) goes.
+struct Destination {
+    enum class Kind { mass, mixed, slope } kind;
+    std::size_t at, mirrored;  ///< of a mass: in M; mixed: of the row in N; of a slope: blocks of S
+    std::size_t stride = 0;    ///< of the row in N
+    int e = 0, f = 0;          ///< used entries
 };
 
 /// Inputs of the tapes: xi, then the entries that occur.
 struct TypedGroup {
     int d = 0;
+    long long id = nextModelId();
+    std::shared_ptr<const Couplings> couplings;
+    std::vector<std::pair<int, int>> massCoupled;  ///< factors that M couples
     std::vector<UsedEntry> used;
-    std::vector<int> isotropy;  ///< GroupMechanics::isotropy
-    bool isQuadratic = false;   ///< in xi
-    typed::Tape gradient, jet;  ///< L and its gradient; the same and the second derivatives of `places`
-    std::vector<std::pair<int, int>> places;  ///< (i, j), j <= i
+    int moves = 0;
+    std::vector<int> isotropy;       ///< GroupMechanics::isotropy
+    bool isQuadratic = false;        ///< in xi
+    bool hasConstantMasses = false;  ///< M depends on nothing
+    /// L and its gradient; the same and M; and the second derivatives of all `places`.
+    typed::Tape gradient, inertia, jet;
+    std::vector<Destination> places;  ///< those of M first
+    std::size_t masses = 0;           ///< so many of them
 };
 
 const TypedGroup& self(const void* p) { return *static_cast<const TypedGroup*>(p); }
@@ -67,8 +87,9 @@ void fillGradient(const TypedGroup& of, const Registers& r, const double* g, dou
     if (!f) return;
     std::fill_n(f, d, 0.0);
     for (std::size_t e = 0; e < of.used.size(); ++e) {
+        const UsedEntry& entry = of.used[e];
         const double slope = r[1 + d + e];
-        for (const Share& s : of.used[e].first) f[s.a] += slope * s.value * g[s.entry];
+        for (const Share& s : entry.shares) f[entry.first + s.a] += slope * s.value * g[s.entry];
     }
 }
 
@@ -77,70 +98,88 @@ void gradientAt(const void* p, const double* g, const double* eta, double* value
     fillGradient(of, Evaluated(of, of.gradient, g, eta), g, value, m, f);
 }
 
+/// S += h moves_a moves_b^T, column after column.
+void addOuter(double h, const double* a, int rows, const double* b, int columns, double* S) {
+    for (int j = 0; j < columns; ++j)
+        for (int i = 0; i < rows; ++i) *S++ += h * a[i] * b[j];
+}
+
 void jetAt(const void* p, const double* g, const double* eta, double* value, double* m, double* f, double* M,
            double* N, double* S) {
     const TypedGroup& of = self(p);
-    const Evaluated r(of, of.jet, g, eta);
+    const Evaluated r(of, f ? of.jet : of.inertia, g, eta);
     fillGradient(of, r, g, value, m, f);
-    const int d = of.d;
-    Eigen::Map<Matrix> mass(M, d, d);
-    mass.setZero();
-    const std::size_t first = 1 + static_cast<std::size_t>(d) + of.used.size();
-    if (!f) {
-        for (std::size_t k = 0; k < of.places.size(); ++k)
-            if (const auto [i, j] = of.places[k]; i < d) mass(i, j) = mass(j, i) = r[first + k];
-        return;
-    }
-    Eigen::Map<Matrix> mixed(N, d, d), slope(S, d, d);
-    mixed.setZero();
-    slope.setZero();
-    // Row e: how entry e of g moves along g E_a.
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, MatrixGroup::maxEntries,
-                  MatrixGroup::maxDimension>
-        moves(static_cast<Eigen::Index>(of.used.size()), d);
-    moves.setZero();
-    for (std::size_t e = 0; e < of.used.size(); ++e) {
-        const auto row = static_cast<Eigen::Index>(e);
-        for (const Share& s : of.used[e].first) moves(row, s.a) += s.value * g[s.entry];
-        const double by = r[1 + static_cast<std::size_t>(d) + e];
-        for (const Share& s : of.used[e].second) slope(s.a, s.b) += by * s.value * g[s.entry];
-    }
-    for (std::size_t k = 0; k < of.places.size(); ++k) {
-        const auto [i, j] = of.places[k];
-        const double h = r[first + k];
-        if (i < d) {
-            mass(i, j) = mass(j, i) = h;
-        } else if (j < d) {
-            mixed.row(j) += h * moves.row(i - d);
-        } else {
-            slope += h * moves.row(i - d).transpose().lazyProduct(moves.row(j - d));
-            if (i != j) slope += h * moves.row(j - d).transpose().lazyProduct(moves.row(i - d));
+    const std::size_t entries = of.couplings->entries();
+    std::fill_n(M, entries, 0.0);
+    const std::size_t first = 1 + static_cast<std::size_t>(of.d) + of.used.size();
+    Vector moves;
+    if (f) {
+        std::fill_n(N, entries, 0.0);
+        std::fill_n(S, entries, 0.0);
+        moves = Vector::Zero(of.moves);
+        for (std::size_t e = 0; e < of.used.size(); ++e) {
+            const UsedEntry& entry = of.used[e];
+            for (const Share& s : entry.shares) moves(entry.move + s.a) += s.value * g[s.entry];
+            if (entry.second.empty()) continue;
+            const double by = r[1 + static_cast<std::size_t>(of.d) + e];
+            double* const slope = S + of.couplings->place(entry.first, entry.first);
+            for (const Share& s : entry.second) slope[s.b * entry.d + s.a] += by * s.value * g[s.entry];
         }
     }
+    for (std::size_t k = 0; k < (f ? of.places.size() : of.masses); ++k) {
+        const Destination& to = of.places[k];
+        const double h = r[first + k];
+        if (to.kind == Destination::Kind::mass) {
+            M[to.at] = M[to.mirrored] = h;
+            continue;
+        }
+        const UsedEntry& e = of.used[static_cast<std::size_t>(to.e)];
+        const double* const own = moves.data() + e.move;
+        if (to.kind == Destination::Kind::mixed) {
+            for (int a = 0; a < e.d; ++a) N[to.at + static_cast<std::size_t>(a) * to.stride] += h * own[a];
+            continue;
+        }
+        const UsedEntry& other = of.used[static_cast<std::size_t>(to.f)];
+        addOuter(h, own, e.d, moves.data() + other.move, other.d, S + to.at);
+        if (to.e != to.f) addOuter(h, moves.data() + other.move, other.d, own, e.d, S + to.mirrored);
+    }
 }
+
+/// The masses of one thread: M is kept where it is constant.
+struct Masses {
+    explicit Masses(const TypedGroup& of)
+        : values(of.couplings->entries()), solver(*of.couplings, of.massCoupled) {}
+    /// m and M at a velocity.
+    void evaluate(const TypedGroup& of, const double* g, const double* eta, double* m) {
+        double value = 0;
+        if (isKnown) return gradientAt(&of, g, eta, &value, m, nullptr);
+        jetAt(&of, g, eta, &value, m, nullptr, values.data(), nullptr, nullptr);
+        for (const int k : of.isotropy) values[of.couplings->place(k, k)] = 1;
+        isKnown = of.hasConstantMasses;
+    }
+    std::vector<double> values;
+    MassSolver solver;
+    bool isKnown = false;
+};
 
 /// Newton's method on dL/deta = mu from rest; one step where L is quadratic in eta.
 bool velocityAt(const void* p, const double* g, const double* mu, double* eta) {
     const TypedGroup& of = self(p);
+    Masses& masses = ownBuffers<Masses>(of.id, of);
     Vector x = Vector::Zero(of.d), m(of.d);
-    Matrix M(of.d, of.d);
     double last = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < 100; ++iteration) {
-        double value = 0;
-        jetAt(p, g, x.data(), &value, m.data(), nullptr, M.data(), nullptr, nullptr);
-        Vector rest = Eigen::Map<const Vector>(mu, of.d) - m;
-        for (const int k : of.isotropy) {
-            rest(k) = 0;
-            M(k, k) = 1;
-        }
-        if (!rest.allFinite() || !M.allFinite()) return false;
-        Vector change = rest;
-        eliminate(of.d, M.data(), change.data());
+        masses.evaluate(of, g, x.data(), m.data());
+        Vector change = Eigen::Map<const Vector>(mu, of.d) - m;
+        for (const int k : of.isotropy) change(k) = 0;
+        const bool isDone = change.isZero(0);
+        if (!change.allFinite()) return false;
+        masses.solver.solve(masses.values.data(), change.data());
         if (!change.allFinite()) return false;
         x += change;
         const double size = change.norm(), scale = x.norm();
         const bool isFound = of.isQuadratic || size <= 1e-15 * scale ||
-                             (iteration > 5 && size >= last && size <= 1e-10 * scale) || rest.isZero(0);
+                             (iteration > 5 && size >= last && size <= 1e-10 * scale) || isDone;
         if (isFound) {
             std::copy_n(x.data(), of.d, eta);
             return true;
@@ -161,10 +200,10 @@ class Names {
 public:
     Names(const MatrixGroup& group, const Parameters& parameters, const OwnNames& own)
         : velocities_(velocityNames(group)), entries_(entryNames(group)) {
-        for (const auto& [name, meaning] : own.meanings) known_.push_back(name);
-        std::vector<std::string>& inFormulas = own.meanings.empty() ? known_ : taken_;
-        inFormulas.insert(inFormulas.end(), velocities_.begin(), velocities_.end());
-        inFormulas.insert(inFormulas.end(), entries_.begin(), entries_.end());
+        for (const auto& [name, meaning] : own.meanings) known_.insert(name);
+        std::unordered_set<std::string>& inFormulas = own.meanings.empty() ? known_ : taken_;
+        inFormulas.insert(velocities_.begin(), velocities_.end());
+        inFormulas.insert(entries_.begin(), entries_.end());
         hint_ = "names: " +
                 (own.meanings.empty() ? velocities_.front() + ".." + velocities_.back() + ", " +
                                             entries_.front() + ".." + entries_.back()
@@ -178,21 +217,19 @@ public:
         }
     }
     void add(const std::string& name, const std::string& pointer) {
-        if (std::find(known_.begin(), known_.end(), name) != known_.end() ||
-            std::find(taken_.begin(), taken_.end(), name) != taken_.end())
+        if (known_.contains(name) || taken_.contains(name))
             throw InvalidScene(pointer, "the name \"" + name + "\" has a meaning already", "another name");
-        known_.push_back(name);
+        known_.insert(name);
     }
     void check(const std::string& text, const std::string& pointer) const {
         atPlace(
             pointer, text,
             [&] {
-                const Expression expression = parseExpression(text);
+                const Expression expression = parseWrittenOut(text);
                 for (const Expression::Node& node : expression.nodes) {
                     if (node.kind == Operator::call && node.name == "dot")
                         throw ExpressionError("has a velocity of its own", node.position, hint_);
-                    if (node.kind != Operator::name || node.name == "pi" ||
-                        std::find(known_.begin(), known_.end(), node.name) != known_.end())
+                    if (node.kind != Operator::name || node.name == "pi" || known_.contains(node.name))
                         continue;
                     throw ExpressionError(node.name == "t" ? "a Lagrangian on a group does not depend on t"
                                                            : "has an unknown name \"" + node.name + "\"",
@@ -212,7 +249,8 @@ private:
         return joinNames(names);
     }
     std::vector<std::string> velocities_, entries_;
-    std::vector<std::string> known_, taken_;  ///< that a formula may use; that have a meaning behind it
+    std::unordered_set<std::string> known_,
+        taken_;  ///< that a formula may use; that have a meaning behind it
     std::string hint_;
 };
 
@@ -257,17 +295,22 @@ std::string writtenOut(const Settings& settings, Names& names, const OwnNames& o
 UsedEntry usedEntry(const MatrixGroup& group, int entry) {
     UsedEntry used;
     used.entry = entry;
-    const auto f = std::find_if(group.factors().rbegin(), group.factors().rend(),
-                                [&](const MatrixGroup::Factor& each) { return each.entry <= entry; });
+    const auto& factors = group.factors();
+    const auto after =
+        std::upper_bound(factors.begin(), factors.end(), entry,
+                         [](int e, const MatrixGroup::Factor& each) { return e < each.entry; });
+    const auto f = std::prev(after);
+    used.part = static_cast<int>(f - factors.begin());
+    used.first = f->coordinate;
+    used.d = f->d;
     const int row = (entry - f->entry) / f->n, column = (entry - f->entry) % f->n;
     const auto add = [&](const MatrixGroup::Square& E, int a, int b, std::vector<Share>& to) {
         for (int k = 0; k < f->n; ++k)
-            if (E(k, column) != 0)
-                to.push_back({f->coordinate + a, f->coordinate + b, f->entry + row * f->n + k, E(k, column)});
+            if (E(k, column) != 0) to.push_back({a, b, f->entry + row * f->n + k, E(k, column)});
     };
     for (int a = 0; a < f->d; ++a) {
         const auto& Ea = f->basis[static_cast<std::size_t>(a)];
-        add(Ea, a, 0, used.first);
+        add(Ea, a, 0, used.shares);
         for (int b = 0; b < f->d; ++b) add(f->basis[static_cast<std::size_t>(b)] * Ea, a, b, used.second);
     }
     return used;
@@ -278,13 +321,55 @@ struct Built {
     bool isInvariant = true, isMixed = false, hasConstantMasses = false;
 };
 
+/// The factors that second derivatives couple, and where these go: (i, j), of xi and then of used entries.
+void placeDerivatives(const MatrixGroup& group, const std::vector<std::pair<int, int>>& found,
+                      TypedGroup& model) {
+    std::vector<int> sizes, partOf;
+    for (const MatrixGroup::Factor& f : group.factors()) {
+        partOf.insert(partOf.end(), static_cast<std::size_t>(f.d), static_cast<int>(sizes.size()));
+        sizes.push_back(f.d);
+    }
+    for (const UsedEntry& e : model.used) partOf.push_back(e.part);
+    const auto part = [&](int i) { return partOf[static_cast<std::size_t>(i)]; };
+    std::vector<std::pair<int, int>> coupled;
+    for (const auto& [i, j] : found) {
+        if (part(i) == part(j)) continue;
+        coupled.emplace_back(part(i), part(j));
+        if (i < model.d && j < model.d) model.massCoupled.emplace_back(std::minmax(part(i), part(j)));
+    }
+    std::sort(model.massCoupled.begin(), model.massCoupled.end());
+    model.massCoupled.erase(std::unique(model.massCoupled.begin(), model.massCoupled.end()),
+                            model.massCoupled.end());
+    const auto couplings = std::make_shared<const Couplings>(sizes, std::move(coupled));
+    model.couplings = couplings;
+    for (const auto& [i, j] : found) {  // j <= i
+        if (i < model.d) {
+            model.places.push_back({Destination::Kind::mass, couplings->place(i, j), couplings->place(j, i)});
+        } else if (const int e = i - model.d; j < model.d) {
+            const int first = model.used[static_cast<std::size_t>(e)].first;
+            model.places.push_back({Destination::Kind::mixed, couplings->place(j, first), 0,
+                                    static_cast<std::size_t>(couplings->size(part(j))), e});
+        } else {
+            const Couplings::Pair& pair = couplings->find(part(i), part(j));
+            model.places.push_back(
+                {Destination::Kind::slope, pair.place, pair.transposed, 0, e, j - model.d});
+        }
+    }
+}
+
 Built build(const MatrixGroup& group, const typed::Formula& formula, const std::vector<int>& entries) {
     const auto symbolic = typed::differentiate(formula);
     const int d = group.dimension(), count = formula.dimension();
     std::vector<int> roots{symbolic->value};
     roots.insert(roots.end(), symbolic->gradient.begin(), symbolic->gradient.begin() + count);
-    const auto triangle = symbolic->hessian.begin();
-    roots.insert(roots.end(), triangle, triangle + count * (count + 1) / 2);
+    std::vector<std::pair<int, int>> places;
+    const int* second = symbolic->hessian.data();
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j <= i; ++j, ++second) {
+            if (symbolic->graph.isZero(*second)) continue;
+            places.emplace_back(i, j);
+            roots.push_back(*second);
+        }
     typed::Graph graph;
     const std::vector<int> here =
         graph.adopt(symbolic->graph, roots, [&](int symbol) -> std::optional<double> {
@@ -294,22 +379,33 @@ Built build(const MatrixGroup& group, const typed::Formula& formula, const std::
         });
     Built made;
     made.model.d = d;
-    for (const int entry : entries) made.model.used.push_back(usedEntry(group, entry));
+    for (const int entry : entries) {
+        made.model.used.push_back(usedEntry(group, entry));
+        made.model.used.back().move =
+            std::exchange(made.model.moves, made.model.moves + made.model.used.back().d);
+    }
     std::vector<int> outputs(here.begin(), here.begin() + 1 + count), masses;
     made.isInvariant = entries.empty();
+    const auto first = static_cast<std::ptrdiff_t>(outputs.size());
     made.model.gradient = typed::Tape::of(graph, outputs, count);
+    std::vector<std::pair<int, int>> found;
     std::size_t k = outputs.size();
-    for (int i = 0; i < count; ++i)
-        for (int j = 0; j <= i; ++j, ++k) {
-            if (graph.isZero(here[k])) continue;
-            outputs.push_back(here[k]);
-            made.model.places.emplace_back(i, j);
-            if (i < d) masses.push_back(here[k]);
-            made.isMixed = made.isMixed || (i >= d && j < d);
-        }
+    for (const auto& [i, j] : places) {
+        const int node = here[k++];
+        if (graph.isZero(node)) continue;
+        outputs.push_back(node);
+        found.emplace_back(i, j);
+        if (i < d) masses.push_back(node);
+        made.isMixed = made.isMixed || (i >= d && j < d);
+    }
     made.model.jet = typed::Tape::of(graph, outputs, count);
+    made.model.masses = masses.size();
+    outputs.resize(static_cast<std::size_t>(first) + masses.size());
+    made.model.inertia = typed::Tape::of(graph, outputs, count);
     made.model.isQuadratic = !graph.dependsOn(masses, [d](int symbol) { return symbol < d; });
-    made.hasConstantMasses = !graph.dependsOn(masses, [](int) { return true; });
+    made.hasConstantMasses = made.model.hasConstantMasses =
+        !graph.dependsOn(masses, [](int) { return true; });
+    placeDerivatives(group, found, made.model);
     return made;
 }
 
@@ -345,9 +441,10 @@ GroupMechanics mechanicsOf(const MatrixGroup& given, const Settings& settings, c
     formula.coordinates = names.velocities();
     std::vector<int> entries;
     try {
-        const std::vector<std::string> inText = parseWrittenOut(formula.text).names();
+        const std::vector<std::string> all = parseWrittenOut(formula.text).names();
+        const std::unordered_set<std::string> inText(all.begin(), all.end());
         for (std::size_t e = 0; e < names.entries().size(); ++e)
-            if (std::find(inText.begin(), inText.end(), names.entries()[e]) != inText.end()) {
+            if (inText.contains(names.entries()[e])) {
                 entries.push_back(static_cast<int>(e));
                 formula.coordinates.push_back(names.entries()[e]);
             }
@@ -356,6 +453,7 @@ GroupMechanics mechanicsOf(const MatrixGroup& given, const Settings& settings, c
         mechanics.isMixed = built.isMixed;
         mechanics.hasConstantMasses = built.hasConstantMasses;
         built.model.isotropy = own.isotropy;
+        mechanics.couplings = built.model.couplings;
         mechanics.model = std::make_shared<const TypedGroup>(std::move(built.model));
     } catch (const ExpressionError& e) {
         throw invalidText("/lagrangian", formula.text, e);
@@ -366,7 +464,8 @@ GroupMechanics mechanicsOf(const MatrixGroup& given, const Settings& settings, c
     return mechanics;
 }
 
-GroupMechanics mechanicsOf(const Settings& settings) {
+GroupMechanics mechanicsOf(const Settings& given) {
+    const Settings settings = typed::writtenOut(given);
     return mechanicsOf(groupOf(*settings.find("group")), settings, {});
 }
 

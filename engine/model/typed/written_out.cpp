@@ -2,6 +2,7 @@
 #include "engine/model/typed/written_out.hpp"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -13,8 +14,8 @@
 namespace extremal::typed {
 namespace {
 
-constexpr const char* keysWithFormulas[] = {"lagrangian", "constraints", "forces",
-                                            "rolling",    "walls",       "dissipation"};
+constexpr const char* keysWithFormulas[] = {"lagrangian", "constraints", "forces", "rolling",
+                                            "walls",      "dissipation", "let",    "group"};
 
 bool hasIndex(const Value& value) {
     if (value.isString()) return extremal::hasIndices(value.asString());
@@ -23,6 +24,10 @@ bool hasIndex(const Value& value) {
            std::any_of(value.asObject().begin(), value.asObject().end(), [](const Value::Member& m) {
                return extremal::hasIndices(m.first) || hasIndex(m.second);
            });
+}
+
+bool isOneOf(const std::string& key, std::span<const char* const> keys) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
 class Expansion {
@@ -39,9 +44,15 @@ public:
         }
         return all;
     }
-    /// A text, or texts by name.
+    /// A text, texts by name, or lists of them.
     Value texts(const Value& value, const std::string& pointer, const IndexedName& of = {}) {
         if (value.isString()) return text(value.asString(), pointer, of);
+        if (value.isArray()) {
+            Value::Array all;
+            for (const Value& each : value.asArray())
+                all.push_back(texts(each, pointer + "/" + std::to_string(all.size()), of));
+            return all;
+        }
         if (!value.isObject()) return value;
         Value::Object all;
         for (const auto& [name, own] : value.asObject())
@@ -93,10 +104,16 @@ Settings writtenOut(const Settings& settings) {
     for (auto& [key, value] : made.keys) {
         const std::string pointer = "/" + key;
         if (key == "coordinates" && value.isArray()) value = expansion.names(value, pointer);
-        if (std::find(std::begin(keysWithFormulas), std::end(keysWithFormulas), key) !=
-            std::end(keysWithFormulas))
-            value = expansion.texts(value, pointer);
+        if (isOneOf(key, keysWithFormulas)) value = expansion.texts(value, pointer);
     }
+    return made;
+}
+
+Settings startWrittenOut(const Settings& initial, const NamedNumbers& parameters) {
+    Settings made = initial;
+    Expansion expansion(parameters);
+    for (auto& [key, value] : made.keys)
+        if (hasIndex(value)) value = expansion.texts(value, "/" + key);
     return made;
 }
 
