@@ -47,7 +47,7 @@ void ProcessorWatch::look(const std::stop_token& end) {
     std::condition_variable_any isEnded;
     std::unique_lock lock(mutex_);
     while (!end.stop_requested()) {
-        // Nobody notifies: it wakes up to look, and at the end at once.
+        // There is no notification: it wakes up to look, and at the end at once.
         isEnded.wait_for(lock, end, 3ms, [] { return false; });
         const bool isOver = limit_ && !limit_->isPaused && secondsOf(limit_->clock) > limit_->end;
         if (isOver) limit_->source.request_stop();

@@ -37,8 +37,8 @@ public:
     }
     std::pair<double, double> stepAt(double t) {
         goTo(t);
-        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-        return hasFailed_ ? std::pair{unknown, unknown} : std::pair{before_, state_.t};
+        constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+        return hasFailed_ ? std::pair{nowhere, nowhere} : std::pair{before_, state_.t};
     }
 
     /// Where it is, without the dense output of its last step.

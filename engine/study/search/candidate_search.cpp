@@ -49,7 +49,7 @@ double CandidateSearch::excessOf(const PointResult& result, std::span<const doub
     for (std::size_t i = 0; i < wishes.size(); ++i) {
         const double value = result.errorIn(i);
         if (!result.isDone() || !std::isfinite(value)) return HUGE_VAL;
-        // Below the floor of the reference nobody is better than another.
+        // Below the floor of the reference no run is better than another.
         most = std::max(most, std::log(std::max({value, floorOf(i), least}) / wishes[i]));
     }
     return most;

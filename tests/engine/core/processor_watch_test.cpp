@@ -13,7 +13,7 @@
 namespace extremal::processor_watch_test {
 namespace {
 
-constexpr double tooLong = 30;  ///< seconds: where nobody asks it to stop, the test ends all the same
+constexpr double tooLong = 30;  ///< seconds: without a request to stop the test ends all the same
 
 /// Works until it is asked to stop.
 double workUntil(const std::stop_token& stop) {

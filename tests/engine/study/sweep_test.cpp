@@ -193,7 +193,7 @@ private slots:
         QVERIFY(below > 1 && between > 2 && above > 0);
         const OrderFit fit = fitOrders(sweep).front();
         if (fit.isKnown()) QVERIFY(fit.to >= least && fit.from <= largest);
-        // A wish below the floor is reached by nobody, however small the number; above it by somebody.
+        // A wish below the floor is not reached, however small the number; one above it is.
         for (const double part : {1e-3, 10.0}) {
             SweepOptions search = shortOptions({});
             search.wantedError = part * floor;
