@@ -4,11 +4,13 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/text/known_keys.hpp"
 #include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/typed_function.hpp"
@@ -43,12 +45,8 @@ double numberOf(const Value& given, const char* key, double fallback, const std:
     return value ? numberIn(*value, pointer + "/" + key, {}) : fallback;
 }
 
-void allowKeys(const Value& given, const std::vector<std::string>& known, const std::string& pointer) {
-    if (!given.isObject()) return;
-    for (const auto& [key, value] : given.asObject())
-        if (key != "name" && std::find(known.begin(), known.end(), key) == known.end())
-            throw InvalidScene(pointer + "/" + key, "is not a key of this potential",
-                               known.empty() ? "it has none" : joinNames(known));
+void allowOwnKeys(const Value& given, const std::vector<std::string>& known, const std::string& pointer) {
+    if (given.isObject()) allowKeys(given, "name", known, pointer, "this potential");
 }
 
 constexpr const char *complexName = "klein-gordon-complex", *ballName = "q-ball";
@@ -92,7 +90,7 @@ void JointPotential::readNamed(const std::string& name, const Value& given, cons
                            name + " is for two components, and the field has " + std::to_string(components()),
                            "\"components\": [\"u\", \"v\"]");
     if (components() == 1) {
-        allowKeys(given, {}, pointer);
+        allowOwnKeys(given, {}, pointer);
         single_ = FieldPotential(name, mass_, pointer);
         return;
     }
@@ -101,11 +99,11 @@ void JointPotential::readNamed(const std::string& name, const Value& given, cons
                            name + " is for one component, and the field has " + std::to_string(components()),
                            "an expression in " + joinNames(names_));
     kind_ = Kind::radial;
-    allowKeys(given,
-              name == ballName      ? std::vector<std::string>{"a", "b"}
-              : name == complexName ? std::vector<std::string>{"lambda"}
-                                    : std::vector<std::string>{},
-              pointer);
+    allowOwnKeys(given,
+                 name == ballName      ? std::vector<std::string>{"a", "b"}
+                 : name == complexName ? std::vector<std::string>{"lambda"}
+                                       : std::vector<std::string>{},
+                 pointer);
     if (name != "none") quadratic_ = mass_ * mass_;
     if (name == complexName) quartic_ = numberOf(given, "lambda", 1, pointer);
     if (name == ballName) {
@@ -159,7 +157,8 @@ void JointPotential::evaluateRadial(const double* u, std::size_t n, std::size_t 
 void JointPotential::evaluateTyped(const double* u, std::size_t n, std::size_t stride, double* W,
                                    double* slope, double* curvature) const {
     const std::size_t m = components(), rows = triangle(m);
-    std::vector<double> at(m), first(m), second(rows);
+    std::array<double, mostComponents> at{}, first{};
+    std::array<double, mostComponents*(mostComponents + 1) / 2> second{};
     const bool hasSlope = slope || curvature;
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t c = 0; c < m; ++c) at[c] = u[c * stride + i];

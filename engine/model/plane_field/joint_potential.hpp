@@ -22,6 +22,8 @@ namespace extremal {
 
 class JointPotential {
 public:
+    static constexpr std::size_t mostComponents = 8;
+
     /// Of one component.
     JointPotential(FieldPotential single);
     /// Of components with these names. Throws InvalidScene with pointers that start with `pointer`.

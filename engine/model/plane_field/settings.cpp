@@ -8,11 +8,12 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/plane_field/joint_potential.hpp"
 
 namespace extremal {
 namespace {
 
-constexpr std::size_t mostComponents = 8;
+constexpr std::size_t mostComponents = JointPotential::mostComponents;
 
 /// What is wrong with a name; empty: nothing.
 std::string faultOf(const std::string& name) {

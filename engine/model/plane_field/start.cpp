@@ -11,6 +11,7 @@
 
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text/known_keys.hpp"
 #include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/plane_field/q_ball.hpp"
@@ -33,9 +34,7 @@ class Keys {
 public:
     Keys(const Value& object, std::string pointer, const std::vector<std::string>& known)
         : object_(object), pointer_(std::move(pointer)) {
-        for (const auto& [key, value] : object.asObject())
-            if (key != "name" && std::find(known.begin(), known.end(), key) == known.end())
-                throw InvalidScene(pointer_ + "/" + key, "is not a key of this profile", joinNames(known));
+        allowKeys(object, "name", known, pointer_, "this profile");
     }
     double number(const char* key, double fallback) const {
         const Value* const value = object_.find(key);

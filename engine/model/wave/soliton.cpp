@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/text/known_keys.hpp"
 #include "engine/core/text/text.hpp"
 
 namespace extremal::wave {
@@ -45,9 +46,7 @@ void checkSoliton(const Value& psi, const std::string& pointer, const Hamiltonia
     std::vector<std::string> known{"amplitude", "centre"};
     if (name != pair) known.emplace_back("velocity");
     if (isDark) known.emplace_back("separation");
-    for (const auto& [key, value] : psi.asObject())
-        if (key != "packet" && std::find(known.begin(), known.end(), key) == known.end())
-            throw InvalidScene(pointer + "/" + key, "is not a key of the packet " + name, joinNames(known));
+    allowKeys(psi, "packet", known, pointer, "the packet " + name);
     if (const double A = keyOf(psi, pointer, "amplitude", 1); !(A > 0))
         throw InvalidScene(pointer + "/amplitude", "must be positive, got " + formatNumber(A), "1");
 }
