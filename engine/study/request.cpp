@@ -10,6 +10,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/study/usable_value.hpp"
 
 namespace extremal {
 namespace {
@@ -40,9 +41,7 @@ Wish parseWish(const std::string& text, bool isRung) {
 
 /// A wish for the metric of the study.
 double usableError(const StudyRequest& study) {
-    if (!(study.error > 0 && std::isfinite(study.error)))
-        throw InvalidScene("--error", "must be positive and finite, got " + formatNumber(study.error),
-                           "for example 1e-6");
+    requireUsable(study.error, "--error", "for example 1e-6");
     return study.error;
 }
 
@@ -177,9 +176,7 @@ std::vector<Wish> wishesOf(const StudyRequest& study) {
     if (study.error != 0) all.push_back({study.metric, usableError(study)});
     for (const std::string& text : study.wishes) {
         all.push_back(parseWish(text, false));
-        if (!(all.back().value > 0))
-            throw InvalidScene("--wish", "must be positive and finite, got " + formatNumber(all.back().value),
-                               "for example error.theta=1e-3");
+        requireUsable(all.back().value, "--wish", "for example error.theta=1e-3");
     }
     return all;
 }

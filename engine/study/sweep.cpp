@@ -15,6 +15,7 @@
 #include "engine/study/search/budget_search.hpp"
 #include "engine/study/search/candidate_search.hpp"
 #include "engine/study/search/search_reference.hpp"
+#include "engine/study/usable_value.hpp"
 
 namespace extremal {
 
@@ -77,10 +78,6 @@ void Sweep::checkOptions() const {
         if (metric.needsReference() && scene_.scene.reference.kind == ReferenceSpec::Kind::none)
             throw InvalidScene("/reference", "errors need a reference, and the scene has none",
                                "\"auto\", or --metric energy");
-    const auto requireUsable = [](double value, const char* option) {
-        if (!(std::isfinite(value) && value > 0))
-            throw InvalidScene(option, "must be positive and finite, got " + formatNumber(value));
-    };
     if (options_.wantedError != 0) requireUsable(options_.wantedError, "--error");
     for (const Wish& wish : options_.wishes) requireUsable(wish.value, "--wish");
     for (const double rung : options_.rungs) requireUsable(rung, "--wish");

@@ -5,20 +5,15 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "engine/core/text/text.hpp"
 #include "engine/core/thread_clock.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/study/search/excess.hpp"
 #include "engine/study/search/ladder.hpp"
 
 namespace extremal {
 namespace {
-
-/// Of two below the floor of the reference the one with the smaller number.
-bool isBetter(const PointResult& a, const PointResult& b) {
-    return std::pair(a.excess, a.error) < std::pair(b.excess, b.error);
-}
 
 /// Runs of one candidate.
 class OneBudget {
@@ -69,27 +64,15 @@ private:
             return {};
         }
         const double cost = result.cpuSeconds / search_.budget;
-        result.excess = excessOf(result);
+        result.excess = excessOf(result, search_.metrics, search_.wishes, search_.referenceError);
         constexpr double slack = 1.02;
-        if (cost <= slack && std::isfinite(result.excess) && (!best_ || isBetter(result, *best_)))
+        if (cost <= slack && std::isfinite(result.excess) && (!best_ || isNearer(result, *best_)))
             best_ = result;
         if (cost > slack && failure_.reason.empty()) {
             failure_.status = RunStatus::failed;
             failure_.reason = "dearer than the budget";
         }
         return cost;
-    }
-
-    double excessOf(const PointResult& result) const {
-        constexpr double least = 1e-300;
-        double most = -HUGE_VAL;
-        for (std::size_t i = 0; i < search_.wishes.size(); ++i) {
-            const double value = result.errorIn(i);
-            if (!std::isfinite(value)) return HUGE_VAL;
-            const double floor = search_.metrics[i].floorBy(search_.referenceError);
-            most = std::max(most, std::log(std::max({value, floor, least}) / search_.wishes[i]));
-        }
-        return most;
     }
 
     /// Of n: as few steps tell, or of tolerances a usual one.
@@ -189,7 +172,7 @@ std::vector<PointResult> bestWithin(const BudgetSearch& search, const std::stop_
     for (std::size_t i = 0; i < results.size(); ++i)
         if (results[i].isDone()) order.push_back(i);
     std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return isBetter(results[a], results[b]); });
+              [&](std::size_t a, std::size_t b) { return isNearer(results[a], results[b]); });
     for (std::size_t place = 0; place < std::min(timed, order.size()) && !stop.stop_requested(); ++place) {
         PointResult& r = results[order[place]];
         StudyPoint at = search.candidates[order[place]];

@@ -12,6 +12,7 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/outlook/cost.hpp"
 #include "engine/study/model_in_place.hpp"
+#include "engine/study/search/excess.hpp"
 #include "engine/study/search/ladder.hpp"
 
 namespace extremal {
@@ -44,15 +45,7 @@ StudyPoint CandidateSearch::pointAt(const StudyPoint& own, const ResolvedScheme&
 }
 
 double CandidateSearch::excessOf(const PointResult& result, std::span<const double> wishes) const {
-    constexpr double least = 1e-300;
-    double most = -HUGE_VAL;
-    for (std::size_t i = 0; i < wishes.size(); ++i) {
-        const double value = result.errorIn(i);
-        if (!result.isDone() || !std::isfinite(value)) return HUGE_VAL;
-        // Below the floor of the reference no run is better than another.
-        most = std::max(most, std::log(std::max({value, floorOf(i), least}) / wishes[i]));
-    }
-    return most;
+    return extremal::excessOf(result, metrics_, wishes, reference_.estimatedError);
 }
 
 /// An error as large as a fifth of the motion says nothing of the order.

@@ -52,8 +52,8 @@ struct Metric {
     std::string title() const;  ///< the symbol for plots
     /// Of the values of its terms at one node.
     double combined(std::span<const double> values) const;
-    /// Where errors end that a reference with this error of its own lets be seen; 0: none is needed, or its
-    /// error is not known.
+    /// Where errors end that a reference with this error of its own lets be seen; 0 where the metric needs no
+    /// reference, or its error is not known.
     double floorBy(double referenceError) const;
     /// The size of what it measures, beyond a fifth of which an error says nothing any more; infinity where
     /// it is not known.

@@ -7,6 +7,7 @@
 #include "engine/core/text/text.hpp"
 #include "engine/study/catalog.hpp"
 #include "engine/study/model_in_place.hpp"
+#include "engine/study/search/excess.hpp"
 
 namespace extremal::studies {
 namespace {
@@ -33,8 +34,7 @@ std::vector<const SweepRow*> ranked(const Sweep& sweep) {
         if (a->result.isDone() != b->result.isDone()) return a->result.isDone();
         const bool isByError = !a->result.isDone() || sweep.options().budget > 0;
         if (isByError && sweep.options().budget > 0 && a->result.isDone())
-            return std::pair(a->result.excess, a->result.error) <
-                   std::pair(b->result.excess, b->result.error);
+            return isNearer(a->result, b->result);
         return isByError ? a->result.error < b->result.error : cost(*a) < cost(*b);
     });
     return all;
