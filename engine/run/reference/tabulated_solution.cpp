@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace extremal {
 namespace {
@@ -47,30 +48,15 @@ void interpolate(const double* states, double at, std::size_t width, double* x) 
     for (std::size_t i = 0; i < width; ++i) x[i] /= sum;
 }
 
-}  // namespace
-
 /// What a table has to reproduce.
-struct TabulatedSolution::Wanted {
+struct Wanted {
     std::size_t width, checked;
     double tolerance;
 };
 
-void TabulatedSolution::at(double t, double* x) const {
-    if (!bounds_.empty()) {
-        const auto next = std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, t);
-        const double from = *(next - 1), place = (t - from) / (*next - from);
-        const auto k = static_cast<std::size_t>(next - bounds_.begin()) - 1;
-        interpolate(states_.data() + k * points * width_, place, width_, x);
-        return;
-    }
-    const double place = (t - start_) / length_ * static_cast<double>(intervals_);
-    const double k = std::clamp(std::floor(place), 0.0, static_cast<double>(intervals_ - 1));
-    interpolate(states_.data() + static_cast<std::size_t>(k) * points * width_, place - k, width_, x);
-}
-
-std::optional<bool> TabulatedSolution::sample(const ExactSolution& solution, double from, double to,
-                                              const Wanted& wanted, double* states,
-                                              std::vector<double>& sizes) {
+/// Samples [from, to]. Whether it is reproduced; nothing where it is not known.
+std::optional<bool> sample(const ExactSolution& solution, double from, double to, const Wanted& wanted,
+                           double* states, std::vector<double>& sizes) {
     constexpr double relative = 1e-13;
     const std::size_t width = wanted.width;
     std::vector<double> probed(probes.size() * width), read(width);
@@ -96,41 +82,59 @@ std::optional<bool> TabulatedSolution::sample(const ExactSolution& solution, dou
     return isGood;
 }
 
-/// False: the solution ends there, or there are too many numbers.
-bool TabulatedSolution::addPiece(const ExactSolution& solution, double from, double to, double least,
-                                 const Wanted& wanted, std::vector<double>& sizes) {
-    const std::size_t size = states_.size();
-    if (size + points * width_ > mostNumbers) return false;
-    states_.resize(size + points * width_);
-    const std::optional<bool> isGood = sample(solution, from, to, wanted, states_.data() + size, sizes);
-    if (!isGood) return false;
-    if (*isGood || to - from <= least) {
-        bounds_.push_back(to);
+/// Pieces of a solution that is stepped along: its steps, halved where one is not reproduced.
+class Pieces {
+public:
+    std::vector<double> bounds, states;  ///< ends of the pieces, the start first; piece after piece
+
+    Pieces(const ExactSolution& solution, const Wanted& wanted, double start, double end)
+        : bounds{start}, solution_(solution), wanted_(wanted), end_(end), least_(1e-13 * (end - start)) {}
+
+    /// False: the solution ends early, or there are too many numbers.
+    bool add(const std::stop_token& stop) {
+        while (bounds.back() < end_) {
+            const double from = bounds.back(),
+                         to = std::min(end_, solution_.stepAt()(std::nextafter(from, end_)).second);
+            if (stop.stop_requested() || !(to > from) || !addPiece(from, to)) return false;
+        }
         return true;
     }
-    states_.resize(size);
-    const double middle = from + (to - from) / 2;
-    return addPiece(solution, from, middle, least, wanted, sizes) &&
-           addPiece(solution, middle, to, least, wanted, sizes);
-}
 
-std::shared_ptr<const TabulatedSolution> TabulatedSolution::ofSteps(const ExactSolution& solution,
-                                                                    double start, double end,
-                                                                    const Wanted& wanted,
-                                                                    const std::stop_token& stop) {
-    constexpr double part = 1e-13;
-    const auto table = std::make_shared<TabulatedSolution>();
-    table->width_ = wanted.width;
-    table->bounds_ = {start};
-    std::vector<double> sizes(wanted.width, 0.0);
-    while (table->bounds_.back() < end) {
-        const double from = table->bounds_.back(),
-                     to = std::min(end, solution.stepAt()(std::nextafter(from, end)).second);
-        if (stop.stop_requested() || !(to > from) ||
-            !table->addPiece(solution, from, to, part * (end - start), wanted, sizes))
-            return {};
+private:
+    bool addPiece(double from, double to) {
+        const std::size_t size = states.size(), own = points * wanted_.width;
+        if (size + own > mostNumbers) return false;
+        states.resize(size + own);
+        const std::optional<bool> isGood = sample(solution_, from, to, wanted_, states.data() + size, sizes_);
+        if (!isGood) return false;
+        if (*isGood || to - from <= least_) {
+            bounds.push_back(to);
+            return true;
+        }
+        states.resize(size);
+        const double middle = from + (to - from) / 2;
+        return addPiece(from, middle) && addPiece(middle, to);
     }
-    return table;
+
+    const ExactSolution& solution_;
+    Wanted wanted_;
+    double end_, least_;
+    std::vector<double> sizes_ = std::vector<double>(wanted_.width, 0.0);
+};
+
+}  // namespace
+
+void TabulatedSolution::at(double t, double* x) const {
+    if (!bounds_.empty()) {
+        const auto next = std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, t);
+        const double from = *(next - 1), place = (t - from) / (*next - from);
+        const auto k = static_cast<std::size_t>(next - bounds_.begin()) - 1;
+        interpolate(states_.data() + k * points * width_, place, width_, x);
+        return;
+    }
+    const double place = (t - start_) / length_ * static_cast<double>(intervals_);
+    const double k = std::clamp(std::floor(place), 0.0, static_cast<double>(intervals_ - 1));
+    interpolate(states_.data() + static_cast<std::size_t>(k) * points * width_, place - k, width_, x);
 }
 
 std::shared_ptr<const TabulatedSolution> TabulatedSolution::of(const ExactSolution& solution, double start,
@@ -161,7 +165,14 @@ std::shared_ptr<const TabulatedSolution> TabulatedSolution::of(const ExactSoluti
         if (stop.stop_requested()) return {};
         if (isGood) return table;
     }
-    return solution.stepAt() && end > start ? ofSteps(solution, start, end, wanted, stop) : nullptr;
+    if (!solution.stepAt() || !(end > start)) return {};
+    Pieces pieces(solution, wanted, start, end);
+    if (!pieces.add(stop)) return {};
+    auto table = std::make_shared<TabulatedSolution>();
+    table->width_ = width;
+    table->bounds_ = std::move(pieces.bounds);
+    table->states_ = std::move(pieces.states);
+    return table;
 }
 
 ExactSolution TabulatedSolution::reader(std::shared_ptr<const TabulatedSolution> table) {

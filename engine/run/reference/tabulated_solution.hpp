@@ -12,7 +12,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -34,16 +33,6 @@ public:
     void at(double t, double* x) const;
 
 private:
-    struct Wanted;
-    static std::shared_ptr<const TabulatedSolution> ofSteps(const ExactSolution& solution, double start,
-                                                            double end, const Wanted& wanted,
-                                                            const std::stop_token& stop);
-    bool addPiece(const ExactSolution& solution, double from, double to, double least, const Wanted& wanted,
-                  std::vector<double>& sizes);
-    /// Samples [from, to] at the place of a piece. Whether it is reproduced; nothing where it is not known.
-    static std::optional<bool> sample(const ExactSolution& solution, double from, double to,
-                                      const Wanted& wanted, double* states, std::vector<double>& sizes);
-
     std::vector<double> bounds_;  ///< of intervals that are not equal, ascending; else empty
     double start_ = 0, length_ = 0;
     std::size_t intervals_ = 0, width_ = 0;
