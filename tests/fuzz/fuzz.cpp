@@ -23,6 +23,7 @@
 #include <string>
 #include <thread>
 
+#include "engine/core/thread_clock.hpp"
 #include "tests/fuzz/kinds.hpp"
 
 namespace extremal::fuzz {
@@ -150,11 +151,6 @@ private:
         return clock_getcpuclockid(process, &clock) == 0 ? secondsOf(clock) : 0;
     }
     static double ownSeconds() { return secondsOf(CLOCK_PROCESS_CPUTIME_ID); }
-    static double secondsOf(clockid_t clock) {
-        timespec time{};
-        if (clock_gettime(clock, &time) != 0) return 0;
-        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-    }
 
     void keep(const char* what) const {
         std::filesystem::create_directories("fuzz");
