@@ -72,7 +72,7 @@ public:
 
 private:
     std::string of_;
-    CountedCache<std::string, V> known_{256, 256.0, [](const V& v) { return megabytes(v); }};
+    CountedCache<std::string, V> known_{4096, 256.0, [](const V& v) { return megabytes(v); }};
 };
 
 /// The family of a space that the reader has found in the catalogue.

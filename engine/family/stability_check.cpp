@@ -146,7 +146,7 @@ OscillatorStep tableStep(const Discretization& discretization) {
 
 std::shared_ptr<const LinearStabilityFacts> tableStability(const Discretization& discretization) {
     using Key = std::pair<Settings, Settings>;
-    static MemoCache<Key, std::shared_ptr<const LinearStabilityFacts>> known(64);
+    static MemoCache<Key, std::shared_ptr<const LinearStabilityFacts>> known(512);
     return known.get(Key{discretization.space, discretization.quadrature}, [&] {
         constexpr int mostForAll = 24;  // unknowns of a step whose edges are all computed
         const Table<double> table = tableOf(discretization.space, discretization.quadrature);
