@@ -133,13 +133,10 @@ LinearStabilityFacts factsOf(OscillatorStep step) {
 
 OscillatorStep tableStep(const Discretization& discretization) {
     const auto& [space, quadrature, solver, impact] = discretization;
-    // A tableau has a row and a column for each node, the action for each unknown of the step.
-    constexpr int mostStages = 100;
-    const bool isTall = hasTable(discretization) && tableOf(space, quadrature).nodes() > mostStages;
-    if (const auto* const tables = familyPart<Tables>(space); tables && !isTall) try {
-            return OscillatorStep(tables->tableau(discretization, 1));
+    if (const auto* const tables = familyPart<Tables>(space); tables && tables->oscillator) try {
+            return tables->oscillator(space, quadrature);
         } catch (const InvalidScene&) {
-            // The step is not a Runge-Kutta method.
+            // A space of one's own, in double precision alone.
         }
     return OscillatorStep(oscillatorAction(tableOf(space, quadrature)));
 }

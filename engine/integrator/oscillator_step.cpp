@@ -16,7 +16,7 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Half the trace is known to this much in quadruple precision; a growth of 4e-13.
 constexpr double traceSlack = 1e-25;
 /// Edges that touch are opened by rounding: of entries in double precision to about the root of it.
-constexpr double leastOfTableau = 1e-12, leastOfAction = 1e-7;
+constexpr double leastOfQuadruple = 1e-12, leastOfRounded = 1e-7;
 /// Where M is singular, as with s Gauss nodes, rounding its entries moves the roots at infinity to about 1e7.
 constexpr double farthest = 1e4;
 
@@ -84,7 +84,10 @@ std::vector<double> rootsOf(const Tableau& t) {
 }  // namespace
 
 OscillatorStep::OscillatorStep(const OscillatorAction& action)
-    : stiffness_(action.stiffness.cast<Quad>()), mass_(action.mass.cast<Quad>()) {}
+    : stiffness_(action.stiffness.cast<Quad>()), mass_(action.mass.cast<Quad>()), isRounded_(true) {}
+
+OscillatorStep::OscillatorStep(Matrix stiffness, Matrix mass)
+    : stiffness_(std::move(stiffness)), mass_(std::move(mass)) {}
 
 OscillatorStep::OscillatorStep(std::shared_ptr<const Tableau> tableau)
     : tableau_(std::move(tableau)), forth_(tableau_->A * tableau_->Ahat) {
@@ -103,6 +106,8 @@ Eigen::Matrix<Quad, 2, 2> OscillatorStep::partMap(const Quad& square) const {
     Eigen::Matrix<Quad, 2, 2> map;
     if (tableau_) {
         const Index n = forth_.rows();
+        const auto stages = static_cast<double>(n);
+        work::spend(work::quadruple * stages * stages * stages / 3);
         Matrix rhs(n, 2);
         rhs.col(0).setOnes();
         rhs.col(1) = tableau_->A.rowwise().sum();
@@ -116,6 +121,8 @@ Eigen::Matrix<Quad, 2, 2> OscillatorStep::partMap(const Quad& square) const {
         return map;
     }
     const Index m = stiffness_.rows() - 1;
+    const auto size = static_cast<double>(m);
+    work::spend(work::quadruple * size * size * size / 3);
     const Matrix A = stiffness_ - square * mass_;
     Matrix rhs = Matrix::Zero(m, 2);
     rhs.col(0) = -A.col(0).head(m);
@@ -257,7 +264,7 @@ double largestGrowth(const OscillatorStep& step, double low, double high) {
 }  // namespace
 
 std::vector<UnstableInterval> OscillatorStep::intervals() const {
-    const double leastGrowth = tableau_ ? leastOfTableau : leastOfAction;
+    const double leastGrowth = isRounded_ ? leastOfRounded : leastOfQuadruple;
     const std::vector<double> roots = candidates();
     std::vector<double> middle;
     for (std::size_t i = 0; i <= roots.size(); ++i) {

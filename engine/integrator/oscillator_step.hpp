@@ -37,7 +37,10 @@ struct OscillatorAction {
 
 class OscillatorStep {
 public:
+    using Matrix = Eigen::Matrix<Quad, Eigen::Dynamic, Eigen::Dynamic>;
     explicit OscillatorStep(const OscillatorAction& action);
+    /// Of K and M in quadruple precision.
+    OscillatorStep(Matrix stiffness, Matrix mass);
     /// Of a symplectic method.
     explicit OscillatorStep(std::shared_ptr<const Tableau> tableau);
     /// One after the other over parts g_i of the step, sum g_i = 1.
@@ -51,17 +54,17 @@ public:
     /// Number of eigenvalues of either problem.
     Eigen::Index unknowns() const;
     /// All intervals that begin below z = 10^4, ascending. Left out are those whose growth stays below what
-    /// rounding the coefficients does: 1e-12 per step of a tableau, 1e-7 of an action, whose entries are in
-    /// double precision.
+    /// rounding the coefficients does: 1e-12 per step where they are in quadruple precision, 1e-7 where
+    /// they are in double.
     std::vector<UnstableInterval> intervals() const;
 
 private:
-    using Matrix = Eigen::Matrix<Quad, Eigen::Dynamic, Eigen::Dynamic>;
     Eigen::Matrix<Quad, 2, 2> partMap(const Quad& square) const;
     OscillatorAction assembled() const;
     std::vector<double> candidates() const;
 
     Matrix stiffness_, mass_;                 ///< of one part; empty where there is a tableau
+    bool isRounded_ = false;                  ///< their entries are in double precision
     std::shared_ptr<const Tableau> tableau_;  ///< of one part
     Matrix forth_;                            ///< A Ahat
     std::vector<double> parts_{1.0};

@@ -275,7 +275,8 @@ Family galerkin() {
                     "", "has a rule for each term or a space for each coordinate, which no one tableau has",
                     "one space and one rule");
             return galerkin::tableauOf(withStep(d.space, step), d.quadrature);
-        }});
+        },
+        galerkin::oscillatorOf});
     return f;
 }
 

@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/work.hpp"
 #include "engine/family/rule_choices.hpp"
+#include "engine/integrator/oscillator_step.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/typed.hpp"
 #include "engine/tableau/tableau.hpp"
@@ -241,6 +243,23 @@ std::shared_ptr<const Tableau> tableauOf(const Settings& settings, const Setting
     const Space<double> space = makeSpace(settings);
     return std::make_shared<const Tableau>(
         galerkinTableau(makeQuadrupleTable(space, ruleOn<Quad>(space, quadrature))));
+}
+
+/// Rows and columns in the order start, inside, end: the function of the start is the last test function.
+OscillatorStep oscillatorOf(const Settings& settings, const Settings& quadrature) {
+    const Space<double> space = makeSpace(settings);
+    const Table<Quad> t = makeQuadrupleTable(space, ruleOn<Quad>(space, quadrature));
+    const Eigen::Index m = t.unknowns();
+    OscillatorStep::Matrix value(t.nodes(), m + 1), slope(t.nodes(), m + 1);
+    value << t.testValue.col(m - 1), t.value;
+    slope << t.testDerivative.col(m - 1), t.derivative;
+    const auto size = static_cast<double>(m);
+    work::spend(2 * work::quadruple * size * size * t.nodes());
+    const auto summed = [&](const OscillatorStep::Matrix& f) {
+        const OscillatorStep::Matrix weighted = f.transpose() * t.weight.asDiagonal();
+        return dense::product<Quad>(weighted, f);
+    };
+    return {summed(slope), summed(value)};
 }
 
 }  // namespace extremal::galerkin

@@ -10,7 +10,8 @@
 
 namespace extremal {
 struct Tableau;
-}
+class OscillatorStep;
+}  // namespace extremal
 
 namespace extremal::galerkin {
 
@@ -33,5 +34,9 @@ Table<double> makeTable(const Settings& space, const Settings& quadrature);
 /// The step as a Runge-Kutta method, from the table in quadruple precision. Throws InvalidScene where it is
 /// none.
 std::shared_ptr<const Tableau> tableauOf(const Settings& space, const Settings& quadrature);
+
+/// The step on the harmonic oscillator, from the table in quadruple precision. Throws InvalidScene where the
+/// space cannot be evaluated there.
+OscillatorStep oscillatorOf(const Settings& space, const Settings& quadrature);
 
 }  // namespace extremal::galerkin

@@ -12,6 +12,7 @@ namespace extremal {
 template <class T>
 struct Table;
 struct Tableau;
+class OscillatorStep;
 
 /// A family without it has steps of its own, which no table describes.
 struct Tables {
@@ -22,6 +23,9 @@ struct Tables {
     Table<double> (*make)(const Settings& space, const Settings& quadrature) = nullptr;
     /// The step as a Runge-Kutta method. Throws InvalidScene, with the reason, where it is not one.
     std::shared_ptr<const Tableau> (*tableau)(const Discretization&, double step) = nullptr;
+    /// The step on the harmonic oscillator in quadruple precision, of one with one table. Throws InvalidScene
+    /// where its functions are not known to it.
+    OscillatorStep (*oscillator)(const Settings& space, const Settings& quadrature) = nullptr;
 };
 
 }  // namespace extremal
