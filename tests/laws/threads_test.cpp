@@ -70,22 +70,25 @@ private slots:
     void theirNumberChangesNothing() {
         QFETCH(int, index);
         const Scene scene = everythingIn(everyGround()[static_cast<std::size_t>(index)]);
-        const Comparison one = run(scene, {.threads = 1}), several = run(scene, {.threads = 5});
+        const Comparison one = run(scene, {.threads = 1, .isTimed = false}),
+                         several = run(scene, {.threads = 5, .isTimed = false});
         qInfo("%zu schemes", one.schemes.size());
         const std::string what = different(one, several);
         QVERIFY2(what.empty(), what.c_str());
         // Alone, the last scheme does what it does beside all others.
         Scene last = scene;
         last.schemes = {scene.schemes.back()};
-        QVERIFY(
-            areSame(run(last, {.threads = 1}).schemes.front()->trajectory, one.schemes.back()->trajectory));
+        QVERIFY(areSame(run(last, {.threads = 1, .isTimed = false}).schemes.front()->trajectory,
+                        one.schemes.back()->trajectory));
     }
     void oneBitIsFound() {
         const Scene scene = everythingIn(everyGround().front());
         Scene other = scene;
         double& step = other.schemes.front().step.value;
         step = std::nextafter(step, 1);
-        QVERIFY(!different(run(scene, {.threads = 2}), run(other, {.threads = 2})).empty());
+        QVERIFY(!different(run(scene, {.threads = 2, .isTimed = false}),
+                           run(other, {.threads = 2, .isTimed = false}))
+                     .empty());
     }
 };
 
