@@ -6,7 +6,10 @@
 #include <complex>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <numbers>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace extremal::wave {
@@ -73,13 +76,13 @@ struct Plane {
     int reach = 0;
     std::vector<std::vector<Number>> rows;
 
-    double at(double x, double y) const {
+    /// The sums over a at one x, for each b.
+    std::vector<Number> columnAt(double x) const {
         const Number stepX = std::polar(1.0, 2 * std::numbers::pi * (x - grid.x.left) / grid.x.length),
-                     stepY = std::polar(1.0, 2 * std::numbers::pi * (y - grid.y.left) / grid.y.length),
                      first =
                          std::polar(1.0, -2 * std::numbers::pi * reach * (x - grid.x.left) / grid.x.length);
-        double sum = 0;
-        Number turnY = 1;
+        std::vector<Number> column;
+        column.reserve(rows.size());
         for (const auto& row : rows) {
             // Horner's rule, from the highest a down.
             double re = 0, im = 0;
@@ -88,11 +91,44 @@ struct Plane {
                 im = re * stepX.imag() + im * stepX.real() + row[i].imag();
                 re = r;
             }
-            sum += (Number(re, im) * first * turnY).real();
+            column.push_back(Number(re, im) * first);
+        }
+        return column;
+    }
+
+    double sumAlong(const std::vector<Number>& column, double y) const {
+        const Number stepY = std::polar(1.0, 2 * std::numbers::pi * (y - grid.y.left) / grid.y.length);
+        double sum = 0;
+        Number turnY = 1;
+        for (const Number& z : column) {
+            sum += (z * turnY).real();
             turnY *= stepY;
         }
         return sum;
     }
+};
+
+/// The columns of a plane that were asked for: on the nodes of a rectangle there are far fewer of them than
+/// nodes, and each is the larger part of the work. Any thread may ask.
+class Columns {
+public:
+    explicit Columns(Plane plane) : plane_(std::move(plane)) {}
+    double at(double x, double y) { return plane_.sumAlong(*columnAt(x), y); }
+
+private:
+    using Column = std::shared_ptr<const std::vector<Number>>;
+    static constexpr std::size_t most = 1024;
+
+    Column columnAt(double x) {
+        const std::lock_guard lock(mutex_);
+        if (const auto known = known_.find(x); known != known_.end()) return known->second;
+        if (known_.size() >= most) known_.clear();
+        return known_[x] = std::make_shared<const std::vector<Number>>(plane_.columnAt(x));
+    }
+
+    Plane plane_;
+    std::mutex mutex_;
+    std::unordered_map<double, Column> known_;
 };
 
 std::function<double(double, double, double)> fieldOnRectangle(const Grid& grid, const RandomField& field) {
@@ -102,12 +138,12 @@ std::function<double(double, double, double)> fieldOnRectangle(const Grid& grid,
     const auto reachOf = [&](const Domain& d) {
         return static_cast<int>(std::min(256.0, std::floor(furthest * d.length / turn)));
     };
-    const auto plane = std::make_shared<Plane>(Plane{grid, reachOf(grid.x), {}});
+    Plane plane{grid, reachOf(grid.x), {}};
     SplitMix random(static_cast<std::uint64_t>(field.seed));
     double variance = 0;
     for (int b = 0; b <= reachOf(grid.y); ++b) {
-        auto& row = plane->rows.emplace_back();
-        for (int a = -plane->reach; a <= plane->reach; ++a) {
+        auto& row = plane.rows.emplace_back();
+        for (int a = -plane.reach; a <= plane.reach; ++a) {
             const double cosine = random.normal(), sine = random.normal();
             const double k = turn * a / grid.x.length, m = turn * b / grid.y.length;
             // Of opposite wave numbers one counts, and the mean is not a part of the field.
@@ -117,10 +153,11 @@ std::function<double(double, double, double)> fieldOnRectangle(const Grid& grid,
         }
     }
     const double scale = variance > 0 ? field.amplitude / std::sqrt(variance) : 0;
-    for (auto& row : plane->rows)
+    for (auto& row : plane.rows)
         for (Number& z : row) z *= scale;
-    return
-        [plane = std::shared_ptr<const Plane>(plane)](double x, double y, double) { return plane->at(x, y); };
+    return [columns = std::make_shared<Columns>(std::move(plane))](double x, double y, double) {
+        return columns->at(x, y);
+    };
 }
 
 }  // namespace
