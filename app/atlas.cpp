@@ -10,7 +10,7 @@
 #include "app/study_work.hpp"
 #include "app/verbs.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
-#include "engine/figure/study_figure.hpp"
+#include "engine/figure/studies/study_figure.hpp"
 #include "engine/scene/read/json.hpp"
 #include "engine/study/atlas/atlas.hpp"
 #include "engine/study/search/pareto.hpp"

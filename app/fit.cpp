@@ -4,7 +4,7 @@
 #include "app/study_work.hpp"
 #include "app/verbs.hpp"
 #include "engine/core/text/text.hpp"
-#include "engine/figure/fit_figure.hpp"
+#include "engine/figure/studies/fit_figure.hpp"
 #include "engine/figure/image/svg.hpp"
 #include "engine/study/fit/fit.hpp"
 #include "engine/study/fit/measured_data.hpp"

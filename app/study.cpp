@@ -14,7 +14,7 @@
 #include "app/watch_run.hpp"
 #include "engine/core/text/fingerprint.hpp"
 #include "engine/core/text/text.hpp"
-#include "engine/figure/study_figure.hpp"
+#include "engine/figure/studies/study_figure.hpp"
 #include "engine/run/files/export.hpp"
 #include "engine/scene/read/json.hpp"
 #include "engine/study/catalog.hpp"
@@ -125,6 +125,8 @@ int report(const StudyEntry& study, const Study& work, const StudyOptions& given
         document.set("rows", rowsValue(tables.front()));
         for (std::size_t i = 1; i < tables.size(); ++i) document.set(tables[i].name, rowsValue(tables[i]));
         document.set("complete", work.isComplete());
+        if (const double seconds = work.announced().seconds; seconds > 0)
+            document.set("announced_seconds", std::round(1e3 * seconds) / 1e3);
         return print(writeJson(document), code);
     }
     if (isInterrupted) printProblem("", "interrupted: the results are partial", "--resume goes on");

@@ -27,7 +27,8 @@ namespace extremal::app {
 /// Does work on another thread, as function(stop), and waits. True: it was interrupted.
 template <class Function>
 bool workAndWait(const Function& function, std::function<double()> fraction,
-                 std::function<std::string()> doing, InterruptWatch& watch, const CommonOptions& options) {
+                 std::function<std::string()> doing, InterruptWatch& watch, const CommonOptions& options,
+                 std::function<AnnouncedTime()> announced = {}) {
     std::atomic<bool> isFinished{false};
     std::exception_ptr failure;
     std::jthread worker([&](const std::stop_token& stop) {
@@ -39,7 +40,7 @@ bool workAndWait(const Function& function, std::function<double()> fraction,
         isFinished = true;
     });
     const Work work{[&] { return isFinished.load(); }, std::move(fraction), std::move(doing),
-                    [&] { worker.request_stop(); }};
+                    [&] { worker.request_stop(); }, std::move(announced)};
     const bool isInterrupted = waitFor(work, watch, options);
     worker.join();
     if (failure) std::rethrow_exception(failure);
@@ -56,7 +57,8 @@ bool runAndWait(Study& study, StudyLog& log, InterruptWatch& watch, const Common
                 study, [&](const std::string& line) { log.append(line); }, stop);
         },
         [&] { return study.fraction(); },
-        [&] { return study.isPreparing() ? std::string("computing the reference") : doing; }, watch, options);
+        [&] { return study.isPreparing() ? std::string("computing the reference") : doing; }, watch, options,
+        [&] { return study.announced(); });
 }
 
 /// The exit code of the work, or of the problem that ended it, which is printed.

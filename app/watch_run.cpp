@@ -23,6 +23,7 @@ bool waitFor(const Work& work, InterruptWatch& watch, const CommonOptions& optio
             isInterrupted = true;
             work.stop();
         }
+        if (work.announced) progress.announce(work.announced());
         progress.show(work.fraction(), isInterrupted ? "stopping" : work.doing());
     }
     return isInterrupted;

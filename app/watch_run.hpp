@@ -8,6 +8,7 @@
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
 #include "engine/run/run.hpp"
+#include "engine/study/progress.hpp"
 
 namespace extremal::app {
 
@@ -15,8 +16,9 @@ namespace extremal::app {
 struct Work {
     std::function<bool()> isFinished;
     std::function<double()> fraction;
-    std::function<std::string()> doing;  ///< what the line of progress says
-    std::function<void()> stop;          ///< returns at once
+    std::function<std::string()> doing;             ///< what the line of progress says
+    std::function<void()> stop;                     ///< returns at once
+    std::function<AnnouncedTime()> announced = {};  ///< empty: it never says
 };
 /// Waits until the work is finished; a first Ctrl-C stops it, a second one ends the program. True: it was
 /// interrupted.

@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "engine/figure/study_figure.hpp"
+#include "engine/figure/studies/study_figure.hpp"
 #include "engine/study/request.hpp"
 #include "engine/study/stability/stability_study.hpp"
 #include "engine/study/sweep_log.hpp"

@@ -14,7 +14,7 @@ double OrderFit::errorAt(double step) const { return std::exp(logConstant + orde
 
 OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale, double most) {
     constexpr std::size_t fewest = 3;
-    const double tolerance = 0.1 * std::log(10.0), leastR2 = 0.98;
+    const double tolerance = 0.1 * std::log(10.0), leastR2 = 0.98, leastFall = std::log(2.0);
     // Stretches of usable neighbours.
     std::vector<double> x, y, steps;
     std::vector<std::size_t> breaks{0};
@@ -39,6 +39,8 @@ OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale, do
                 const LineFit line = lineThrough(std::span(x).subspan(first, last - first),
                                                  std::span(y).subspan(first, last - first));
                 if (line.worst > tolerance || line.r2 < leastR2 || last - first < longest) continue;
+                // A plateau may lie on a line as well, to its last digits.
+                if (line.slope * (x[first] - x[last - 1]) < leastFall) continue;
                 longest = last - first;
                 best.order = line.slope;
                 best.r2 = line.r2;

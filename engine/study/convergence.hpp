@@ -4,8 +4,8 @@
 ///
 /// The window of the fit is the longest run of neighbouring points that are done, above the floor (ten times
 /// the reference's own error, and the round-off of the run) and within a tenth of a decade of their common
-/// line; of equally long ones that with the smaller steps. Three points at least, and r2 at least 0.98, so
-/// that neither a plateau nor scatter has an order.
+/// line; of equally long ones that with the smaller steps. Three points at least, r2 at least 0.98, and
+/// errors that fall to a half, so that neither a plateau nor scatter has an order.
 #pragma once
 
 #include <limits>

@@ -10,6 +10,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/study/search/reductions.hpp"
 #include "engine/study/usable_value.hpp"
 
 namespace extremal {
@@ -77,6 +78,7 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
             isOwn = isOwn || entry.over == Over::wishes || entry.over == Over::usableSteps;
         if (option == "--over" || option == "--of" || option == "--knobs")
             isOwn = isOwn || entry.over == Over::wishes;
+        if (option == "--knobs") isOwn = isOwn || entry.over == Over::steps;
         if (option == "--x" || option == "--y") isOwn = isOwn || isChanged;
         if (isGiven && !isOwn)
             throw InvalidScene(std::string(option), "is not an option of " + entry.item.id,
@@ -122,6 +124,17 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
                            "for example '/schemes/*/step=0.01:1:50:log'");
 }
 
+/// Of a study over given steps.
+void checkKnobs(const ResolvedScene& scene, const StudyRequest& study, const SearchKnobs& knobs) {
+    if (knobs.isDegree)
+        throw InvalidScene("--knobs", "has degree, which is not a knob of " + study.kind,
+                           "step,cells or step");
+    if (std::none_of(scene.schemes.begin(), scene.schemes.end(),
+                     [&](const ResolvedScheme& scheme) { return cellsOf(scheme, scene) > 0; }))
+        throw InvalidScene("--knobs", "is for schemes on a mesh that may be refined, and the scene has none",
+                           "without --knobs");
+}
+
 Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadder, unsigned threads) {
     SweepOptions options;
     options.wantedError = isLadder ? 0 : study.error;
@@ -156,6 +169,8 @@ Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadd
     options.hasAllCandidates = study.candidates == "all" || (isLadder && study.candidates.empty());
     if (!study.searchTime.empty()) options.searchSeconds = parseSeconds(study.searchTime, "--search-time");
     options.knobs = parseKnobs(study.knobs);
+    if (!study.knobs.empty() && !isLadder && options.wantedError == 0)
+        checkKnobs(scene, study, options.knobs);
     options.over = parseCases(study.over, study.of);
     options.isAtEnd = study.isFinal;
     options.ladder = {study.steps, study.from, study.to, study.points};

@@ -12,6 +12,7 @@
 #include "engine/run/reference/map_reference.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/outlook/cost.hpp"
+#include "engine/study/expected_time.hpp"
 #include "engine/study/search/budget_search.hpp"
 #include "engine/study/search/candidate_search.hpp"
 #include "engine/study/search/search_reference.hpp"
@@ -110,11 +111,28 @@ void Sweep::addOwnPoint(std::size_t scheme) {
     rows_.push_back({point, {}});
 }
 
+/// Whether a ladder has a mesh of its own at each step: of errors against a solution that is known on any.
+bool Sweep::refinesMesh(const ResolvedScheme& scheme) const {
+    const ReferenceSpec::Kind kind = scene_.scene.reference.kind;
+    const bool isOnAnyMesh =
+        scene_.system->at && (kind == ReferenceSpec::Kind::automatic || kind == ReferenceSpec::Kind::exact);
+    return options_.knobs.isCells && isOnAnyMesh && metric().needsReference() &&
+           !hasStepOfItsSpace(scene_, scheme) && cellsOf(scheme, scene_) > 0;
+}
+
 void Sweep::addLadder(std::size_t scheme) {
     const ResolvedScheme& own = scene_.schemes[scheme];
-    for (const double value : ladderOf(options_.ladder, scene_, own)) {
+    const bool isRefined = refinesMesh(own);
+    for (const double value : ladderOf(options_.ladder, scene_, own, isRefined)) {
         StudyPoint point;
         point.scheme = scheme;
+        if (isRefined) {
+            constexpr double fewest = 4;
+            const int given = cellsOf(own, scene_);
+            const int cells =
+                static_cast<int>(std::max(fewest, std::round(given * own.spec.step.value / value)));
+            if (cells != given) point.reduction.cells = cells;
+        }
         if (own.isAdaptive()) {
             point.tolerance = value;
             point.row = noRow;
@@ -152,6 +170,7 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         return rows_[i].result.status != RunStatus::waiting;
     });
     if (wanted.empty()) return;
+    progress_.begin();
     if (isSearch()) return runSearch(wanted, onReference, onPoint, stop);
     MapReference reference;
     Reference scheme;  // what adaptive runs, whose nodes no table has, are compared with
@@ -171,10 +190,12 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         if (onReference) onReference(reference_);
     }
     const auto referenceOf = [&](const StudyPoint& point) {
+        if (point.reduction) return reference.at(point.row, scene_, schemeOf(scene_, point));
         const ResolvedScheme& run = scene_.schemes[point.scheme];
         if (point.step == 0 && scheme.make && !run.ownSystem) return scheme.make();
         return reference.at(point.row, scene_, run);
     };
+    progress_.announce(secondsAhead(wanted));
     const auto compute = [&](std::size_t i) {
         const StudyPoint& point = rows_[i].point;
         return runPoint(scene_, point, metric, referenceOf(point), options_.repeat, stop);
@@ -183,6 +204,30 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         rows_[i].result = std::move(result);
         if (onPoint) onPoint(i, rows_[i].result);
     });
+}
+
+/// Of the points of ladders, scheme by scheme.
+double Sweep::secondsAhead(const std::vector<std::size_t>& wanted) const {
+    const auto secondsOf = [&](const StudyPoint& point) {
+        PointResult at;
+        at.step = point.step;
+        at.tolerance = point.tolerance;
+        at.reduction = point.reduction;
+        try {
+            return secondsOfPoint(predictSeconds(scene_, schemeAt(scene_, point.scheme, at)),
+                                  options_.repeat);
+        } catch (const InvalidScene&) {
+            return 0.0;
+        }
+    };
+    ExpectedTime time;
+    for (std::size_t first = 0, last; first < wanted.size(); first = last) {
+        const auto schemeAtPlace = [&](std::size_t k) { return rows_[wanted[k]].point.scheme; };
+        last = first + 1;
+        while (last < wanted.size() && schemeAtPlace(last) == schemeAtPlace(first)) ++last;
+        time.addRuns(last - first, [&](std::size_t k) { return secondsOf(rows_[wanted[first + k]].point); });
+    }
+    return time.onThreads(options_.threads);
 }
 
 void Sweep::runSearch(const std::vector<std::size_t>& wanted,
@@ -216,6 +261,8 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
                            : isCounted                ? std::numeric_limits<double>::infinity()
                            : isLadder                 ? usualOfLadder
                                                       : usualSeconds;
+    constexpr double closing = 0.2;  // the best are timed when the search is over
+    if (std::isfinite(seconds)) progress_.announce((1 + closing) * seconds, true);
     const std::vector<Metric> sizedMetrics = metrics;
     CandidateSearch search(
         scene_, searched, std::move(metrics),
@@ -316,6 +363,11 @@ void Sweep::climb(CandidateSearch& search, const std::vector<std::size_t>& wante
             take(i, std::move(result));
             if (onPoint) onPoint(i, rows_[i].result);
         });
+}
+
+int cellsAt(const Sweep& sweep, const StudyPoint& point) {
+    if (point.reduction.cells > 0) return point.reduction.cells;
+    return cellsOf(sweep.scene().schemes[point.scheme], sweep.scene());
 }
 
 std::vector<SchemeRows> bySchemes(const Sweep& sweep) {

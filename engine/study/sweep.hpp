@@ -48,7 +48,7 @@ struct SweepOptions {
     double budget = 0;
     bool isPerTime = false;
     OverCases over = {};       ///< of a search: what has to be served besides the scene itself
-    SearchKnobs knobs = {};    ///< of a search
+    SearchKnobs knobs = {};    ///< of a search; of ladders only isCells: mesh and step are refined together
     double searchSeconds = 0;  ///< of CPU; 0: 1 s where runs are timed, else no limit
     /// Of a ladder of wishes, from the largest down: one point for each, the cheapest of all schemes.
     std::vector<double> rungs = {};
@@ -113,13 +113,16 @@ public:
     void run(const std::function<void(const ReferenceInfo&)>& onReference,
              const std::function<void(std::size_t, const PointResult&)>& onPoint,
              const std::stop_token& stop);
-    /// 0..1; callable while it runs, as is the next.
+    /// 0..1; callable while it runs, as are the next.
     double fraction() const { return progress_.fraction(); }
+    AnnouncedTime announced() const { return progress_.announced(); }
     /// The reference is computed; no point has begun.
     bool isPreparing() const { return progress_.isPreparing(); }
 
 private:
+    double secondsAhead(const std::vector<std::size_t>& wanted) const;
     void addOwnPoint(std::size_t scheme);
+    bool refinesMesh(const ResolvedScheme& scheme) const;
     void addLadder(std::size_t scheme);
     void addSearched();
     bool isSearch() const { return options_.wantedError != 0 || !options_.rungs.empty(); }
@@ -153,6 +156,9 @@ private:
     ReferenceInfo reference_;
     StudyProgress progress_;
 };
+
+/// The elements of a point on a mesh; 0: their number is not a knob of its scheme.
+int cellsAt(const Sweep& sweep, const StudyPoint& point);
 
 /// The rows of a sweep that belong to one scheme, for each scheme that has any.
 struct SchemeRows {

@@ -13,12 +13,12 @@ namespace {
 
 long long count(const std::string& text) { return static_cast<long long>(parseNumber(text).value_or(0)); }
 
-std::string errorsText(const std::vector<double>& errors) {
+std::string numbersText(const std::vector<double>& numbers) {
     std::string text;
-    for (const double error : errors) text += (text.empty() ? "" : " ") + formatNumber(error);
+    for (const double each : numbers) text += (text.empty() ? "" : " ") + formatNumber(each);
     return text;
 }
-std::vector<double> errorsOf(const std::string& text) {
+std::vector<double> numbersIn(const std::string& text) {
     std::vector<double> all;
     for (std::size_t from = 0; from < text.size();) {
         const std::size_t blank = std::min(text.find(' ', from), text.size());
@@ -37,14 +37,16 @@ std::string pointLine(std::size_t index, const PointResult& r) {
         line += ',' + std::to_string(value);
     line += cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
     line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes) + ',' +
-            std::to_string(r.reduction.cells);
+            std::to_string(r.reduction.cells) + cellsText({r.reduction.solver});
     line += cellsText({r.unreducedWork, r.timesCheapest, r.excess, r.floor, r.confirmedAt});
-    return line + ',' + r.floorOf + ',' + withoutCommas(r.reason) + ',' + errorsText(r.errors) + ',' +
-           std::to_string(r.scheme);
+    std::vector<double> tried;
+    for (const TriedRun& run : r.tried) tried.insert(tried.end(), {run.cpuSeconds, run.work, run.error});
+    return line + ',' + r.floorOf + ',' + withoutCommas(r.reason) + ',' + numbersText(r.errors) + ',' +
+           std::to_string(r.scheme) + ',' + numbersText(tried);
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
-    if (cells.size() != 28) return {};
+    if (cells.size() != 30) return {};
     PointResult r;
     r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
     r.cause = outcomeOf(cells[3]);
@@ -58,21 +60,27 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.step = cellNumber(cells[14]);
     r.tolerance = cellNumber(cells[15]);
     r.reduction = {static_cast<int>(count(cells[16])), static_cast<int>(count(cells[17])),
-                   static_cast<int>(count(cells[18]))};
-    r.unreducedWork = cellNumber(cells[19]);
-    r.timesCheapest = cellNumber(cells[20]);
-    r.excess = cellNumber(cells[21]);
-    r.floor = cellNumber(cells[22]);
-    r.confirmedAt = cellNumber(cells[23]);
-    r.floorOf = cells[24];
-    r.reason = withCommas(cells[25]);
-    r.errors = errorsOf(cells[26]);
-    r.scheme = cellIndex(cells[27]);
+                   static_cast<int>(count(cells[18])), cellNumber(cells[19])};
+    r.unreducedWork = cellNumber(cells[20]);
+    r.timesCheapest = cellNumber(cells[21]);
+    r.excess = cellNumber(cells[22]);
+    r.floor = cellNumber(cells[23]);
+    r.confirmedAt = cellNumber(cells[24]);
+    r.floorOf = cells[25];
+    r.reason = withCommas(cells[26]);
+    r.errors = numbersIn(cells[27]);
+    r.scheme = cellIndex(cells[28]);
+    const std::vector<double> tried = numbersIn(cells[29]);
+    for (std::size_t i = 0; i + 2 < tried.size(); i += 3)
+        r.tried.push_back({tried[i], tried[i + 1], tried[i + 2]});
     return r;
 }
 
 bool isSameButForTimes(PointResult a, PointResult b) {
-    for (PointResult* r : {&a, &b}) r->cpuSeconds = r->cpuSpread = r->predictedSeconds = PointResult::unknown;
+    for (PointResult* r : {&a, &b}) {
+        r->cpuSeconds = r->cpuSpread = r->predictedSeconds = PointResult::unknown;
+        r->tried.clear();
+    }
     return pointLine(0, a) == pointLine(0, b);
 }
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/figure/study_figure.hpp"
+#include "engine/figure/studies/study_figure.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/study/sweep.hpp"
 #include "ui/base/background.hpp"

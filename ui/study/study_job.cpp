@@ -138,6 +138,11 @@ bool StudyJob::isPreparing() const {
     return work_ && std::visit([](const auto& study) { return study.isPreparing(); }, work_->study);
 }
 
+AnnouncedTime StudyJob::announced() const {
+    return work_ ? std::visit([](const auto& study) { return study.announced(); }, work_->study)
+                 : AnnouncedTime{};
+}
+
 void StudyJob::retire() {
     if (!work_) return;
     work_->thread.request_stop();

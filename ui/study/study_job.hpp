@@ -41,6 +41,7 @@ public:
     bool wasStopped() const { return wasStopped_; }
     double fraction() const;
     bool isPreparing() const;
+    AnnouncedTime announced() const;
     /// Why it ended early, beside being stopped: a reference that cannot be computed.
     const QString& problem() const { return problem_; }
     /// What is known so far; null before the first study.

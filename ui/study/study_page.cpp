@@ -15,7 +15,7 @@
 #include "engine/core/known_value.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
-#include "engine/figure/study_figure.hpp"
+#include "engine/figure/studies/study_figure.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/theme.hpp"
@@ -416,6 +416,8 @@ void StudyPage::showState() {
     parts << tr("%1 of %2 points").arg(count.known).arg(count.all);
     if (!job_->problem().isEmpty()) parts << job_->problem();
     if (job_->isPreparing()) parts << tr("the reference comes first");
+    if (const AnnouncedTime time = job_->announced(); job_->isRunning() && time.seconds >= 1)
+        parts << tr("%1 in all").arg(QString::fromStdString(textOf(time)));
     if (job_->wasStopped()) parts << tr("stopped");
     if (const Sweep* sweep = job_->as<Sweep>(); sweep && !sweep->reference().description.empty())
         parts << tr("reference: %1").arg(QString::fromStdString(sweep->reference().description));

@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/figure/fit_figure.hpp"
+#include "engine/figure/studies/fit_figure.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/notices.hpp"

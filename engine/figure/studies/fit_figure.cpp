@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/figure/fit_figure.hpp"
+#include "engine/figure/studies/fit_figure.hpp"
 
 #include <cmath>
 #include <utility>

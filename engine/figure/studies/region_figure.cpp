@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/figure/region_figure.hpp"
+#include "engine/figure/studies/region_figure.hpp"
 
 #include <cmath>
 #include <cstdlib>

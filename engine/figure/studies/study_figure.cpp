@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/figure/study_figure.hpp"
+#include "engine/figure/studies/study_figure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,9 @@
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/fit_axes.hpp"
-#include "engine/figure/region_figure.hpp"
+#include "engine/figure/studies/race_figure.hpp"
+#include "engine/figure/studies/region_figure.hpp"
+#include "engine/figure/studies/study_axes.hpp"
 #include "engine/run/reference/error_floor.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/study/catalog.hpp"
@@ -18,23 +20,6 @@
 namespace extremal {
 namespace {
 
-std::string errorTitle(const Sweep& sweep) {
-    const std::string symbol = sweep.metric().title();
-    const std::string size = symbol.starts_with("|") ? symbol : "|" + symbol + "|";
-    return axisTitle(sweep.metric().isAtEnd ? size + " at the end" : "max " + size, sweep.metric().unit());
-}
-
-Figure startOf(const Sweep& sweep, const char* view, const char* title) {
-    Figure figure;
-    figure.view = view;
-    figure.title = title;
-    figure.y = logAxis(errorTitle(sweep));
-    if (const double floor = referenceFloor(sweep.reference()); floor > 0) figure.add(DoubtfulBand{floor});
-    if (sweep.metric().needsReference())
-        figure.add(RoundOffFloor{0x1p-52 * largestEntry(sweep.scene().initial)});
-    return figure;
-}
-
 Series curveOf(const Sweep& sweep, const SchemeRows& scheme) {
     Series s;
     const SchemeSpec& spec = sweep.scene().scene.schemes[scheme.scheme];
@@ -42,23 +27,6 @@ Series curveOf(const Sweep& sweep, const SchemeRows& scheme) {
     s.style = styleOf(spec, scheme.scheme);
     s.kind = SeriesKind::markedLine;
     return s;
-}
-
-/// Values that a logarithmic axis cannot show become gaps.
-void finish(Figure& figure, const std::string& what) {
-    std::size_t points = 0, schemes = 0;
-    for (Series& s : figure.series()) {
-        for (std::size_t i = 0; i < s.y.size(); ++i) {
-            const bool isShown = std::isfinite(s.y[i]) && s.y[i] > 0;
-            if (!isShown) s.y[i] = PointResult::unknown, ++s.hidden;
-            points += isShown;
-        }
-        ++schemes;
-    }
-    fitAxes(figure, View{}, "h");
-    if (points == 0) figure.message = "No point has a result";
-    figure.summary =
-        what + " of " + std::to_string(schemes) + " schemes, " + std::to_string(points) + " points.";
 }
 
 /// Lines of slope 2, 4, 6 and 8 through the lower right corner of the data.
@@ -89,7 +57,7 @@ void addOrderGuides(Figure& figure) {
 }  // namespace
 
 Figure convergenceFigure(const Sweep& sweep) {
-    Figure figure = startOf(sweep, "convergence", "Error against step");
+    Figure figure = studyFigureStart(sweep, "convergence", "Error against step");
     figure.x = logAxis(axisTitle("step h", sweep.scene().system->timeUnit));
     const std::vector<OrderFit> fits = fitOrders(sweep);
     auto next = fits.begin();
@@ -106,9 +74,12 @@ Figure convergenceFigure(const Sweep& sweep) {
         if (fit.isKnown()) s.label += ": " + shortNumber(fit.order, 3);
         figure.add(std::move(s));
     }
-    figure.subtitle = "with the measured orders";
+    const bool isRefined = std::any_of(sweep.rows().begin(), sweep.rows().end(),
+                                       [](const SweepRow& row) { return row.point.reduction.cells > 0; });
+    figure.subtitle =
+        isRefined ? "the mesh refined with it, with the measured orders" : "with the measured orders";
     addOrderGuides(figure);
-    finish(figure, "Errors against the step");
+    finishStudyFigure(figure, "Errors against the step");
     return figure;
 }
 
@@ -154,7 +125,7 @@ void addOrderTriangles(Figure& figure) {
 }  // namespace
 
 Figure workPrecisionFigure(const Sweep& sweep) {
-    Figure figure = startOf(sweep, "work-precision", "Speed against accuracy");
+    Figure figure = studyFigureStart(sweep, "work-precision", "Speed against accuracy");
     figure.x = logAxis(axisTitle("CPU time", "s"));
     for (const SchemeRows& scheme : bySchemes(sweep)) {
         Series s = curveOf(sweep, scheme);
@@ -174,7 +145,7 @@ Figure workPrecisionFigure(const Sweep& sweep) {
         if (sweep.isJudged(row.result)) points.emplace_back(row.result.cpuSeconds, row.result.error);
     addFront(figure, std::move(points));
     figure.subtitle = "lower left is better; on the broad line is what is worth its cost";
-    finish(figure, "Errors against CPU time");
+    finishStudyFigure(figure, "Errors against CPU time");
     addOrderTriangles(figure);
     return figure;
 }
@@ -196,6 +167,9 @@ void addFront(Figure& figure, std::vector<std::pair<double, double>> points) {
 
 Figure studyFigure(std::string_view study, const Sweep& sweep) {
     if (study == "convergence") return convergenceFigure(sweep);
+    const bool isRace = std::any_of(sweep.rows().begin(), sweep.rows().end(),
+                                    [](const SweepRow& row) { return !row.result.tried.empty(); });
+    if (study == "cheapest" && isRace) return raceFigure(sweep);
     return workPrecisionFigure(sweep);
 }
 
@@ -259,7 +233,7 @@ Figure alongX(const StabilityStudy& study) {
     }
     figure.subtitle = "gaps where a run was not bounded";
     if (!resonances.empty()) figure.subtitle += "; peaks: " + std::to_string(resonances.size());
-    finish(figure, "Energy errors against " + study.options().x.pointer);
+    finishStudyFigure(figure, "Energy errors against " + study.options().x.pointer);
     return figure;
 }
 
@@ -353,7 +327,7 @@ Figure studyFigure(std::string_view study, const LinearStudy& linear) {
         }
         figure.add(std::move(s));
     }
-    finish(figure, "Amplification of one step over h ω");
+    finishStudyFigure(figure, "Amplification of one step over h ω");
     figure.y.range = {0.5, 4};  // what grows faster is unstable all the same
     return figure;
 }

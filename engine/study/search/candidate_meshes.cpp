@@ -190,6 +190,7 @@ PointResult CandidateSearch::fullResultOf(const CandidateRace& race, std::size_t
                                           std::span<const double> wishes) const {
     PointResult result = resultOf(race, index, leastCost(race, wishes));
     takeMesh(index, race, wishes, result);
+    result.tried = triedBy(index);
     return result;
 }
 

@@ -224,7 +224,9 @@ void CandidateSearch::reduce(std::size_t index, std::span<const double> wishes, 
     if (!winner || *winner == 0) return;
     const RaceRun& best = race.runsOf(*winner)[*race.bestOf(*winner)];
     const double work = workOf(result, has.nodes), excess = best.excess;
+    std::vector<TriedRun> tried = std::move(result.tried);
     result = knownAt(points[*winner], best.n);
+    result.tried = std::move(tried);
     result.unreducedWork = work;
     result.excess = excess;
 }
@@ -329,6 +331,18 @@ PointResult CandidateSearch::resultOf(const CandidateRace& race, std::size_t ind
     return result;
 }
 
+/// From few steps to many.
+std::vector<TriedRun> CandidateSearch::triedBy(std::size_t index) const {
+    std::vector<TriedRun> all;
+    for (const auto& [key, known] : known_) {
+        const PointResult& r = known.result;
+        const bool isOfThis = std::get<0>(key) == schemes_[index].point.scheme && std::get<1>(key) == 0;
+        if (!isOfThis || !r.isDone()) continue;  // what failed early cost little, and shows no error
+        all.push_back({r.cpuSeconds, costOf(schemes_[index].point, r), r.errorIn(0)});
+    }
+    return all;
+}
+
 void CandidateSearch::timeOne(std::size_t index, PointResult& r, int repeat) {
     StudyPoint at = schemes_[index].point;
     at.step = r.step;
@@ -416,6 +430,9 @@ std::vector<PointResult> CandidateSearch::find(std::span<const double> wishes, i
         if (knobs_.isDegree && schemes_[i].isOfScene && results[i].isDone() && !entries_[i]->isSingle &&
             !entries_[i]->isAdaptive)
             reduce(i, wishes, results[i]);
+    for (std::size_t i = 0; i < schemes_.size() && knobs_.isTolerance; ++i)
+        if (results[i].isDone() && (schemes_[i].isOfScene || results[i].reason.starts_with("the cheapest")))
+            loosen(i, wishes, results[i]);
     time(results, repeat);
     return results;
 }

@@ -112,11 +112,14 @@ private:
     PointResult fullResultOf(const CandidateRace& race, std::size_t index,
                              std::span<const double> wishes) const;
     void reduce(std::size_t index, std::span<const double> wishes, PointResult& result);
+    void loosen(std::size_t index, std::span<const double> wishes, PointResult& result);
+    std::string structureWithout(std::size_t index, const PointResult& exact, const PointResult& loose) const;
     PointResult resultOf(const CandidateRace& race, std::size_t index, double least) const;
     const PointResult& knownAt(const StudyPoint& point, double n) const;
     std::string reasonOf(const CandidateRace& race, std::size_t index, const PointResult& nearest) const;
     bool isReduced(std::size_t index) const;
     void nameFloor(std::size_t index, PointResult& result) const;
+    std::vector<TriedRun> triedBy(std::size_t index) const;
     void time(std::vector<PointResult>& results, int repeat);
     void timeOne(std::size_t index, PointResult& result, int repeat);
     double excessOf(const PointResult& result, std::span<const double> wishes) const;

@@ -48,8 +48,8 @@ bool hasStepOfItsSpace(const ResolvedScene& scene, const ResolvedScheme& scheme)
     return implied && implied->isOfSpace;
 }
 
-std::vector<double> ladderOf(const LadderSpec& spec, const ResolvedScene& scene,
-                             const ResolvedScheme& scheme) {
+std::vector<double> ladderOf(const LadderSpec& spec, const ResolvedScene& scene, const ResolvedScheme& scheme,
+                             bool isMeshRefined) {
     const bool isGiven = !spec.steps.empty() || spec.points > 0 || spec.from != 0 || spec.to != 0;
     std::vector<double> all;
     if (hasStepOfItsSpace(scene, scheme)) {
@@ -59,8 +59,9 @@ std::vector<double> ladderOf(const LadderSpec& spec, const ResolvedScene& scene,
     } else {
         const double length = scene.scene.end.value - scene.scene.start.value;
         const double own = scheme.spec.step.value;
-        const std::vector<double> steps =
-            isGiven ? wanted(spec) : valuesBetween(8 * own, own / 128, 11, true);
+        const std::vector<double> steps = isGiven         ? wanted(spec)
+                                          : isMeshRefined ? valuesBetween(8 * own, own / 4, 6, true)
+                                                          : valuesBetween(8 * own, own / 128, 11, true);
         for (const double step : steps) {
             const double n = std::max(1.0, std::round(length / step));
             const bool isInside = n >= fewestSteps && n <= std::max(mostSteps, length / own * (1 + 1e-9));

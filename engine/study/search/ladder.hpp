@@ -7,7 +7,9 @@
 /// from eight times the scheme's own step down in halves to a hundredth of it, coarse ones as long as the run
 /// has four steps, fine ones as long as it has at most 200,000. Error-controlled schemes run
 /// over tolerances, 1e-3 to 1e-13 in decades, whatever the steps.
-/// Schemes whose step follows from their space have that one alone.
+/// Schemes whose step follows from their space have that one alone. Where the mesh is refined with the step,
+/// so that twice as many steps cost four times as much, by default from eight times the scheme's own step to
+/// a quarter of it.
 #pragma once
 
 #include <vector>
@@ -29,7 +31,7 @@ bool hasStepOfItsSpace(const ResolvedScene& scene, const ResolvedScheme& scheme)
 
 /// From the largest down, each once. Throws InvalidScene (pointers "--steps", "--from", "--points") where the
 /// specification makes no ladder.
-std::vector<double> ladderOf(const LadderSpec& spec, const ResolvedScene& scene,
-                             const ResolvedScheme& scheme);
+std::vector<double> ladderOf(const LadderSpec& spec, const ResolvedScene& scene, const ResolvedScheme& scheme,
+                             bool isMeshRefined = false);
 
 }  // namespace extremal

@@ -270,6 +270,13 @@ PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, std::s
     return result;
 }
 
+double secondsOfPoint(double run, int repeat) {
+    // Errors are looked up and observed beside the steps; that varies, and is often as much as the steps.
+    constexpr double observed = 1;
+    const double timed = std::min(repeat * std::max(run, shortest), std::max(run, longest));
+    return (1 + observed) * run + (repeat > 0 ? timed : 0);
+}
+
 StepCost tryPoint(const ResolvedScene& scene, const StudyPoint& point, long long steps,
                   const CostLimit& limit, const std::stop_token& stop) {
     StepCost cost;

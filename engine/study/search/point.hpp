@@ -32,6 +32,12 @@ struct StudyPoint {
     Reduction reduction = {};
 };
 
+/// A run that a search has made.
+struct TriedRun {
+    double cpuSeconds = 0, work = 0, error = 0;  ///< work: as workOf()
+    bool operator==(const TriedRun&) const = default;
+};
+
 struct PointResult {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     RunStatus status = RunStatus::waiting;
@@ -54,12 +60,13 @@ struct PointResult {
     double cpuSpread = unknown;         ///< half the distance between the fastest and the slowest repetition
     bool isCutOff = false;              ///< by a limit of its cost
     // Of a search:
-    std::size_t scheme = 0;        ///< of a ladder of wishes: which one answers
-    double excess = unknown;       ///< log of the largest error over what is wished of it
-    double floor = unknown;        ///< the error below which nothing is known of the scheme
-    std::string floorOf;           ///< "reference", "round-off", "mesh", "model"; empty: unknown
-    double confirmedAt = unknown;  ///< the finer step or tolerance at which the wish was reached as well
-    std::string reason;            ///< why it was refused, or what the search found, in words
+    std::size_t scheme = 0;            ///< of a ladder of wishes: which one answers
+    double excess = unknown;           ///< log of the largest error over what is wished of it
+    double floor = unknown;            ///< the error below which nothing is known of the scheme
+    std::string floorOf;               ///< "reference", "round-off", "mesh", "model"; empty: unknown
+    double confirmedAt = unknown;      ///< the finer step or tolerance at which the wish was reached as well
+    std::string reason;                ///< why it was refused, or what the search found, in words
+    std::vector<TriedRun> tried = {};  ///< of a search: its runs that ended, from few steps to many
 
     bool isDone() const { return status == RunStatus::done; }
 };
@@ -94,6 +101,8 @@ PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, const 
 PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, std::span<const Metric> metrics,
                      ExactSolution reference, int repeat, const CostLimit& limit,
                      const std::stop_token& stop);
+/// What runPoint should take: `run`: CPU seconds of the steps of one run.
+double secondsOfPoint(double run, int repeat);
 /// Of at most so many steps, which take at most `limit.seconds`.
 StepCost tryPoint(const ResolvedScene& scene, const StudyPoint& point, long long steps,
                   const CostLimit& limit, const std::stop_token& stop);

@@ -42,10 +42,17 @@ int cellsOf(const ResolvedScheme& scheme, const ResolvedScene& scene) {
 ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const ResolvedScene& scene) {
     if (!to) return scheme;
     SchemeSpec spec = scheme.spec;
-    spec.kind = SchemeSpec::Kind::discretization;
-    spec.named.clear();
-    spec.space = scheme.discretization.space;
-    spec.quadrature = scheme.discretization.quadrature;
+    if (to.solver > 0) {
+        if (spec.solver.type.empty()) spec.solver.type = "auto";
+        std::erase_if(spec.solver.keys, [](const Value::Member& m) { return m.first == "tolerance"; });
+        spec.solver.keys.emplace_back("tolerance", to.solver);
+    }
+    if (to.degree > 0 || to.cells > 0) {
+        spec.kind = SchemeSpec::Kind::discretization;
+        spec.named.clear();
+        spec.space = scheme.discretization.space;
+        spec.quadrature = scheme.discretization.quadrature;
+    }
     if (to.degree > 0) {
         set(spec.space, "degree", to.degree);
         set(spec.quadrature, "nodes", to.nodes);

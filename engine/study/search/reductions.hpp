@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What a scheme can do without: a smaller degree, fewer nodes.
+/// What a scheme can do without: a smaller degree, fewer nodes, equations that are solved to round-off.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,12 @@
 
 namespace extremal {
 
-/// The degree of a space, the nodes of its rule, and its elements; 0: not changed.
+/// The degree of a space, the nodes of its rule, its elements, and the tolerance of its solver; 0: not
+/// changed.
 struct Reduction {
     int degree = 0, nodes = 0, cells = 0;
-    explicit operator bool() const { return degree > 0 || cells > 0; }
+    double solver = 0;
+    explicit operator bool() const { return degree > 0 || cells > 0 || solver > 0; }
     bool operator==(const Reduction&) const = default;
 };
 

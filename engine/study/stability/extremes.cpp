@@ -5,6 +5,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/core/thread_clock.hpp"
 #include "engine/run/march/motion_check.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/outlook/two_positions.hpp"
@@ -103,11 +104,14 @@ ExtremeResult runOwn(const ResolvedScene& scene, const ExtremeAxis& axis, const 
     return result;
 }
 
+JudgedWishes judgedOn(const ResolvedScene& scene, const ExtremeAxis& axis, const std::stop_token& stop) {
+    return {scene, metricsOf(axis.wishes, axis.measured, axis.isAtEnd, scene), axis.wishes, stop};
+}
+
 /// A run of a scene of the user, against its own reference.
 ExtremeResult runChanged(const ResolvedScene& scene, const ExtremeAxis& axis, const std::stop_token& stop) {
     const ResolvedScheme& scheme = scene.schemes.front();
-    const JudgedWishes judged(scene, metricsOf(axis.wishes, axis.measured, axis.isAtEnd, scene), axis.wishes,
-                              stop);
+    const JudgedWishes judged = judgedOn(scene, axis, stop);
     if (stop.stop_requested()) return {};
     StudyPoint point;
     if (scheme.isAdaptive())
@@ -182,6 +186,20 @@ ExtremeResult runExtreme(const ExtremeCase& extreme, const std::stop_token& stop
     } catch (const InvalidScene&) {
         return refused;
     }
+}
+
+double secondsOfJudging(const ExtremeCase& extreme, const std::stop_token& stop) {
+    const ExtremeAxis& axis = *extreme.axis;
+    if (axis.pointer.empty()) return 0;
+    const ReadScene read = readScene(extreme.text());
+    if (!read.resolved) return 0;
+    const double begin = threadSeconds();
+    try {
+        (void)judgedOn(*read.resolved, axis, stop);
+    } catch (const InvalidScene&) {
+        return 0;
+    }
+    return threadSeconds() - begin;
 }
 
 }  // namespace extremal

@@ -7,6 +7,7 @@
 #include "engine/core/text/text.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/cells.hpp"
+#include "engine/study/expected_time.hpp"
 #include "engine/study/stability/judged_wishes.hpp"
 #include "engine/study/study_log.hpp"
 
@@ -65,8 +66,27 @@ bool ExtremesStudy::isComplete() const {
     return std::all_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.isKnown(); });
 }
 
+/// Along the values of each scheme on each axis; what judges a case is tried once, in the middle.
+double ExtremesStudy::secondsAhead(const std::vector<std::size_t>& wanted,
+                                   const std::stop_token& stop) const {
+    if (wanted.empty()) return 0;
+    const double judging = secondsOfJudging(rows_[wanted[wanted.size() / 2]].at, stop);
+    ExpectedTime time;
+    for (std::size_t first = 0, last; first < wanted.size(); first = last) {
+        const auto caseAt = [&](std::size_t k) -> const ExtremeCase& { return rows_[wanted[k]].at; };
+        for (last = first + 1; last < wanted.size(); ++last)
+            if (caseAt(last).axis != caseAt(first).axis || caseAt(last).scheme != caseAt(first).scheme) break;
+        time.addRuns(last - first, [&](std::size_t k) {
+            return judging + secondsOfScene([&] { return readScene(caseAt(first + k).text()); });
+        });
+    }
+    return time.onThreads(threads_);
+}
+
 void ExtremesStudy::run(const std::function<void(std::size_t)>& onCase, const std::stop_token& stop) {
     const auto wanted = wantedPoints(rows_.size(), shard_, [&](std::size_t i) { return rows_[i].isKnown(); });
+    progress_.begin();
+    progress_.announce(secondsAhead(wanted, stop));
     const auto compute = [&](std::size_t i) { return runExtreme(rows_[i].at, stop); };
     progress_.run(wanted, threads_, stop, compute, [&](std::size_t i, ExtremeResult result) {
         take(i, std::move(result));

@@ -58,12 +58,15 @@ public:
     std::size_t size() const { return rows_.size(); }
     bool isComplete() const;
     double fraction() const { return progress_.fraction(); }
+    AnnouncedTime announced() const { return progress_.announced(); }
     bool isPreparing() const { return false; }
 
     void take(std::size_t index, ExtremeResult result) { rows_[index].result = std::move(result); }
     void run(const std::function<void(std::size_t)>& onCase, const std::stop_token& stop);
 
 private:
+    double secondsAhead(const std::vector<std::size_t>& wanted, const std::stop_token& stop) const;
+
     Shard shard_;
     unsigned threads_;
     bool withLong_ = false;

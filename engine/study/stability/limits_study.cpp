@@ -6,6 +6,7 @@
 
 #include "engine/core/text/text.hpp"
 #include "engine/study/cells.hpp"
+#include "engine/study/expected_time.hpp"
 #include "engine/study/stability/judged_wishes.hpp"
 #include "engine/study/study_log.hpp"
 
@@ -31,6 +32,7 @@ void LimitsStudy::run(const std::function<void(std::size_t)>& onScheme, const st
     const auto wanted =
         wantedPoints(rows_.size(), options_.shard, [&](std::size_t i) { return rows_[i].isKnown; });
     if (wanted.empty()) return;
+    progress_.begin();
     progress_.setPreparing(true);
     const JudgedWishes judged(scene_, metrics_, options_.wishes, stop);
     // Empty where no wish needs a reference; on a mesh of its own a scheme has other states.
@@ -41,6 +43,9 @@ void LimitsStudy::run(const std::function<void(std::size_t)>& onScheme, const st
     if (stop.stop_requested()) return;
     ground_ = {frequencies.low(), frequencies.high(), judged.values.front().wish,
                judged.values.front().floor};
+    ExpectedTime time;
+    for (std::size_t k = 0; k < wanted.size(); ++k) time.add(options_.seconds);
+    progress_.announce(time.onThreads(options_.threads), true);
     const auto compute = [&](std::size_t i) {
         const std::size_t scheme = rows_[i].scheme;
         const StepSearch search{judged.metrics, judged.values,

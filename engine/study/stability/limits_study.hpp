@@ -57,6 +57,7 @@ public:
     std::size_t size() const { return rows_.size(); }
     bool isComplete() const;
     double fraction() const { return progress_.fraction(); }
+    AnnouncedTime announced() const { return progress_.announced(); }
     bool isPreparing() const { return progress_.isPreparing(); }
 
     void take(std::size_t index, UsableSteps result);

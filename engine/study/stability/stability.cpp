@@ -14,6 +14,7 @@
 #include "engine/scene/read/overrides.hpp"
 #include "engine/scene/single_scheme.hpp"
 #include "engine/scene/write/codec.hpp"
+#include "engine/study/expected_time.hpp"
 #include "engine/study/stability/values_between.hpp"
 
 namespace extremal {
@@ -59,6 +60,16 @@ Value documentOf(const Scene& scene, std::size_t scheme,
     document.set("reference", "none");
     std::erase_if(document.asObject(), [](const Value::Member& m) { return m.first == "output"; });
     return document;
+}
+
+ReadScene readChanged(const Scene& scene, std::size_t scheme,
+                      const std::vector<std::pair<std::string, double>>& changes) {
+    std::vector<Problem> errors;
+    const Value document = documentOf(scene, scheme, changes, errors);
+    if (errors.empty()) return readScene(document);
+    ReadScene refused;
+    refused.errors = std::move(errors);
+    return refused;
 }
 
 StabilityResult refused(std::string reason) {
@@ -201,10 +212,7 @@ void requireNumber(const Scene& scene, const VariedNumber& number, const char* o
 StabilityResult runStability(const Scene& scene, std::size_t scheme,
                              const std::vector<std::pair<std::string, double>>& changes,
                              const std::stop_token& stop) {
-    std::vector<Problem> errors;
-    const Value document = documentOf(scene, scheme, changes, errors);
-    if (!errors.empty()) return refused(errors.front().message);
-    const ReadScene read = readScene(document);
+    const ReadScene read = readChanged(scene, scheme, changes);
     if (!read.resolved)
         return refused(read.errors.empty() ? ""
                                            : read.errors.front().pointer + " " + read.errors.front().message);
@@ -213,6 +221,11 @@ StabilityResult runStability(const Scene& scene, std::size_t scheme,
     } catch (const InvalidScene& e) {
         return refused(e.problems().front().message);
     }
+}
+
+double secondsOfStability(const Scene& scene, std::size_t scheme,
+                          const std::vector<std::pair<std::string, double>>& changes) {
+    return secondsOfScene([&] { return readChanged(scene, scheme, changes); });
 }
 
 StabilityLimit findLimit(const Scene& scene, std::size_t scheme, const VariedNumber& x,

@@ -65,6 +65,10 @@ StabilityResult runStability(const Scene& scene, std::size_t scheme,
                              const std::vector<std::pair<std::string, double>>& changes,
                              const std::stop_token& stop);
 
+/// CPU seconds that it should take.
+double secondsOfStability(const Scene& scene, std::size_t scheme,
+                          const std::vector<std::pair<std::string, double>>& changes);
+
 struct StabilityLimit {
     double limit = StabilityResult::unknown, low = limit, high = limit;  ///< stable up to low, not at high
 };

@@ -58,6 +58,7 @@ public:
     std::size_t size() const { return rows_.size() + limits_.size(); }
     bool isComplete() const;
     double fraction() const { return progress_.fraction(); }
+    AnnouncedTime announced() const { return progress_.announced(); }
     bool isPreparing() const { return false; }  ///< it has no reference
 
     /// What is known of the point or limit with this index.
@@ -68,6 +69,7 @@ public:
 private:
     std::vector<std::pair<std::string, double>> changesAt(double y) const;
     bool isKnown(std::size_t index) const;
+    double secondsAhead(const std::vector<std::size_t>& wanted) const;
     Result resultAt(std::size_t index, const std::stop_token& stop) const;
 
     ResolvedScene scene_;

@@ -50,10 +50,11 @@ std::string keptOf(const Sweep& sweep, const SweepRow& row) {
     if (!r.isDone()) return "";
     std::string text;
     const Reduction has = richnessOf(sweep.scene().schemes[row.point.scheme]),
-                    kept = r.reduction ? r.reduction : has;
+                    kept = r.reduction.degree > 0 || r.reduction.cells > 0 ? r.reduction : has;
     if (kept.degree > 0)
         text = "degree " + std::to_string(kept.degree) + ", " + counted(kept.nodes, "node") + ", ";
     if (kept.cells > 0) text += counted(kept.cells, "cell") + ", ";
+    if (r.reduction.solver > 0) text += "solver to " + formatNumber(r.reduction.solver, 1) + ", ";
     return text + std::to_string(r.steps) + " steps" +
            (r.tolerance > 0 ? ", tolerance " + formatNumber(r.tolerance, 3) : "");
 }
@@ -71,7 +72,7 @@ std::string leftOutOf(const Sweep& sweep, const SweepRow& row) {
     if (const Reduction kept = row.result.reduction; kept.cells > 0) {
         const int has = cellsOf(sweep.scene().schemes[row.point.scheme], sweep.scene());
         if (has > kept.cells) all.push_back(std::to_string(has - kept.cells) + " of " + counted(has, "cell"));
-    } else if (kept) {
+    } else if (kept.degree > 0) {
         const Reduction has = richnessOf(sweep.scene().schemes[row.point.scheme]);
         if (has.degree > kept.degree) all.push_back(counted(has.degree - kept.degree, "degree"));
         if (has.nodes > kept.nodes) all.push_back(counted(has.nodes - kept.nodes, "node"));

@@ -2,13 +2,22 @@
 /// How errors shrink with the step, and the order that follows: convergence.csv.
 #include "engine/study/convergence.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <span>
 
 #include "engine/core/known_value.hpp"
 #include "engine/study/catalog.hpp"
 
 namespace extremal::studies {
 namespace {
+
+/// Of the time alone; where the mesh is refined with the step, of the space as well.
+int claimedOrder(const ResolvedScheme& scheme, std::span<const SweepRow> rows) {
+    const bool isOfMesh = std::any_of(rows.begin(), rows.end(),
+                                      [](const SweepRow& row) { return row.point.reduction.cells > 0; });
+    return isOfMesh ? std::min(scheme.claims.order, scheme.orderInSpace()) : scheme.claims.order;
+}
 
 std::vector<Value::Array> rowsOf(const Sweep& sweep) {
     std::vector<Value::Array> all;
@@ -21,8 +30,9 @@ std::vector<Value::Array> rowsOf(const Sweep& sweep) {
             if (result.status == RunStatus::waiting) continue;
             all.push_back({resolved.spec.label, positiveNumber(point.step), positiveNumber(point.tolerance),
                            knownNumber(result.error), name(result.status), knownText(name(result.cause)),
-                           knownNumber(fit.order), knownNumber(fit.r2), positiveNumber(resolved.claims.order),
-                           knownNumber(fit.from), knownNumber(fit.to)});
+                           knownNumber(fit.order), knownNumber(fit.r2),
+                           positiveNumber(claimedOrder(resolved, scheme.rows)), knownNumber(fit.from),
+                           knownNumber(fit.to), positiveNumber(cellsAt(sweep, point))});
         }
     }
     return all;
@@ -45,8 +55,8 @@ std::vector<Value::Array> summaryOf(const Sweep& sweep) {
         }
         if (run == 0) continue;
         all.push_back({resolved.spec.label, run, positiveNumber(failed), knownNumber(fit.order),
-                       positiveNumber(resolved.claims.order), knownNumber(fit.from), knownNumber(fit.to),
-                       knownNumber(least)});
+                       positiveNumber(claimedOrder(resolved, scheme.rows)), knownNumber(fit.from),
+                       knownNumber(fit.to), knownNumber(least)});
     }
     return all;
 }
@@ -55,14 +65,16 @@ std::vector<Value::Array> summaryOf(const Sweep& sweep) {
 
 StudyEntry convergence() {
     StudyEntry e;
-    e.item = {"convergence",
-              "Convergence",
-              "Errors against the step, and the order measured where they lie on a line.",
-              {},
-              {},
-              ""};
+    e.item = {
+        "convergence",
+        "Convergence",
+        "Errors against the step, and the order measured where they lie on a line. On meshes that may be "
+        "refined the elements become smaller with the step.",
+        {},
+        {},
+        ""};
     e.columns = {"label", "step", "tolerance",     "error",    "status", "cause",
-                 "order", "r2",   "order_claimed", "fit_from", "fit_to"};
+                 "order", "r2",   "order_claimed", "fit_from", "fit_to", "cells"};
     e.rows = rowsOf;
     e.summaryColumns = {"scheme",  "points",    "failed",  "order",
                         "claimed", "from step", "to step", "least error"};

@@ -21,7 +21,7 @@ std::vector<Value::Array> rowsOfWork(const Sweep& sweep) {
                        knownNumber(result.cpuSeconds), knownNumber(result.cpuSpread),
                        static_cast<double>(result.cost.evaluations),
                        static_cast<double>(result.cost.linearSolves), name(result.status),
-                       knownText(name(result.cause)), front[i]});
+                       knownText(name(result.cause)), front[i], positiveNumber(cellsAt(sweep, point))});
     }
     return all;
 }
@@ -60,7 +60,7 @@ StudyEntry work_precision() {
               {},
               ""};
     e.columns = {"label",       "step",          "tolerance", "error", "cpu_seconds", "cpu_spread",
-                 "evaluations", "linear_solves", "status",    "cause", "pareto"};
+                 "evaluations", "linear_solves", "status",    "cause", "pareto",      "cells"};
     e.rows = rowsOfWork;
     e.summaryColumns = {"worth its cost", "step", "tolerance", "error", "cpu seconds", "evaluations"};
     e.summary = summaryOfWork;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// How long the runs of a study will take, from a few steps of a few of them: what is announced before they
+/// begin.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "engine/scene/write/codec.hpp"
+
+namespace extremal {
+
+/// CPU seconds of a scene of one scheme: what reading it takes, and a run. 0: it is refused.
+double secondsOfScene(const std::function<ReadScene()>& read);
+
+class ExpectedTime {
+public:
+    /// Runs 0..n-1 that one number changes little by little. `seconds(i)`: of CPU, of the whole run i, as
+    /// some trial steps tell it; 0: it fails at once. Some are tried; between them the logarithm is linear.
+    void addRuns(std::size_t n, const std::function<double(std::size_t)>& seconds);
+    /// One run.
+    void add(double seconds);
+
+    /// On so many threads (0: as many as the machine has cores): all of them in equal shares, but at least
+    /// the longest run.
+    double onThreads(unsigned threads) const;
+
+private:
+    double all_ = 0, longest_ = 0;
+};
+
+}  // namespace extremal
