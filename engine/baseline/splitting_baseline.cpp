@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <memory>
+#include <mutex>
 #include <utility>
+#include <vector>
 
 #include "engine/baseline/partitioned.hpp"
 #include "engine/baseline/parts.hpp"
@@ -29,6 +31,28 @@ std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool
     return stages;
 }
 
+namespace {
+
+/// Found when it is asked for: the catalogue is made at every start, and all limits together take longer than
+/// most scenes.
+class LazyLimit {
+public:
+    explicit LazyLimit(std::vector<SplittingStage> stages) : stages_(std::move(stages)) {}
+    double value() {
+        // Fractions are printed to 15 digits.
+        std::call_once(isKnown_,
+                       [this] { value_ = firstEdge(OscillatorStep(tableauOf(stages_, 1e-15)).intervals()); });
+        return value_;
+    }
+
+private:
+    std::vector<SplittingStage> stages_;
+    std::once_flag isKnown_;
+    double value_ = 0;
+};
+
+}  // namespace
+
 BaselineEntry splittingBaseline(std::string id, std::string title, std::string description,
                                 const Splitting& splitting) {
     BaselineEntry e;
@@ -42,8 +66,8 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
     e.parts.set(SystemCondition{[isNystrom = splitting.isNystrom](const System& system) {
         return system.parts.find<Wave>() || !isNystrom || flowOf(system).isSeparable;
     }});
-    // Fractions are printed to 15 digits.
-    e.parts.set(OscillatorLimit(firstEdge(OscillatorStep(tableauOf(splitting.stages, 1e-15)).intervals())));
+    e.parts.set(OscillatorLimit(
+        [limit = std::make_shared<LazyLimit>(splitting.stages)](const Settings&) { return limit->value(); }));
     e.parts.set(BaselineTableau{[splitting](const Settings&) { return tableauOf(splitting.stages, 1e-15); }});
     e.make = [splitting](const System& system, const BaselineOptions& options) {
         if (system.parts.find<Wave>()) return makeWaveSplitting(system, options.step, splitting);

@@ -142,6 +142,14 @@ Properties describeGalerkin(const Discretization& discretization) {
     return p;
 }
 
+std::shared_ptr<const Tableau> tableauAt(const Discretization& d, double step) {
+    if (galerkin::isSplit(d))
+        throw InvalidScene(
+            "", "has a rule for each term or a space for each coordinate, which no one tableau has",
+            "one space and one rule");
+    return galerkin::tableauOf(withStep(d.space, step), d.quadrature);
+}
+
 /// At the step itself: functions that depend on it, and their stability.
 void checkGalerkin(const SchemeCase& scheme, Findings& findings) {
     if (Mechanism::isOne(scheme.system.parts)) return galerkin::checkMechanism(scheme, findings);
@@ -266,17 +274,9 @@ Family galerkin() {
             if (!galerkin::isPhase(system)) return {};
             return galerkin::writtenPhase(system);
         }});
-    f.parts.set(Tables{
-        [](const Discretization& d) { return !galerkin::isSplit(d) && !dependsOnStep(d.space); },
-        galerkin::makeTable,
-        [](const Discretization& d, double step) {
-            if (galerkin::isSplit(d))
-                throw InvalidScene(
-                    "", "has a rule for each term or a space for each coordinate, which no one tableau has",
-                    "one space and one rule");
-            return galerkin::tableauOf(withStep(d.space, step), d.quadrature);
-        },
-        galerkin::oscillatorOf});
+    f.parts.set(
+        Tables{[](const Discretization& d) { return !galerkin::isSplit(d) && !dependsOnStep(d.space); },
+               galerkin::makeTable, tableauAt, galerkin::oscillatorOf});
     return f;
 }
 
