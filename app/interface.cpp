@@ -132,11 +132,12 @@ void addSearch(CLI::App& verb, StudyOptions& study) {
         ->type_name("POINTER=A,B,C or POINTER=FROM:TO:N[:log]");
     verb.add_option("--of", study.of, "the errors over these: the worst (default) or the median")
         ->type_name("worst|median");
-    verb.add_option("--knobs", study.knobs,
-                    "for cheapest and needs: what is searched besides the step, all by default: degree (and "
-                    "nodes), cells (elements of fields), and if named tolerance (of the solver); for "
-                    "convergence and work-precision: step alone, or with cells")
-        ->type_name("step,degree,cells,tolerance");
+    verb.add_option(
+            "--knobs", study.knobs,
+            "for cheapest and needs: what is searched besides the step, all by default: degree (and "
+            "nodes), cells (elements of fields), courant, and if named tolerance (of the solver); for "
+            "convergence and work-precision: step alone, or with cells")
+        ->type_name("step,degree,cells,courant,tolerance");
     verb.add_option("--search-time", study.searchTime,
                     "for cheapest and needs: CPU time of the search, 1s and 4s by default; for limits "
                     "of each scheme, 2s")

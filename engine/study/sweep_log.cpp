@@ -37,7 +37,7 @@ std::string pointLine(std::size_t index, const PointResult& r) {
         line += ',' + std::to_string(value);
     line += cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
     line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes) + ',' +
-            std::to_string(r.reduction.cells) + cellsText({r.reduction.solver});
+            std::to_string(r.reduction.cells) + cellsText({r.reduction.solver, r.reduction.courant});
     line += cellsText({r.unreducedWork, r.timesCheapest, r.excess, r.floor, r.confirmedAt});
     std::vector<double> tried;
     for (const TriedRun& run : r.tried) tried.insert(tried.end(), {run.cpuSeconds, run.work, run.error});
@@ -46,7 +46,7 @@ std::string pointLine(std::size_t index, const PointResult& r) {
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
-    if (cells.size() != 30) return {};
+    if (cells.size() != 31) return {};
     PointResult r;
     r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
     r.cause = outcomeOf(cells[3]);
@@ -60,17 +60,17 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.step = cellNumber(cells[14]);
     r.tolerance = cellNumber(cells[15]);
     r.reduction = {static_cast<int>(count(cells[16])), static_cast<int>(count(cells[17])),
-                   static_cast<int>(count(cells[18])), cellNumber(cells[19])};
-    r.unreducedWork = cellNumber(cells[20]);
-    r.timesCheapest = cellNumber(cells[21]);
-    r.excess = cellNumber(cells[22]);
-    r.floor = cellNumber(cells[23]);
-    r.confirmedAt = cellNumber(cells[24]);
-    r.floorOf = cells[25];
-    r.reason = withCommas(cells[26]);
-    r.errors = numbersIn(cells[27]);
-    r.scheme = cellIndex(cells[28]);
-    const std::vector<double> tried = numbersIn(cells[29]);
+                   static_cast<int>(count(cells[18])), cellNumber(cells[19]), cellNumber(cells[20])};
+    r.unreducedWork = cellNumber(cells[21]);
+    r.timesCheapest = cellNumber(cells[22]);
+    r.excess = cellNumber(cells[23]);
+    r.floor = cellNumber(cells[24]);
+    r.confirmedAt = cellNumber(cells[25]);
+    r.floorOf = cells[26];
+    r.reason = withCommas(cells[27]);
+    r.errors = numbersIn(cells[28]);
+    r.scheme = cellIndex(cells[29]);
+    const std::vector<double> tried = numbersIn(cells[30]);
     for (std::size_t i = 0; i + 2 < tried.size(); i += 3)
         r.tried.push_back({tried[i], tried[i + 1], tried[i + 2]});
     return r;

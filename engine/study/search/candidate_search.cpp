@@ -37,10 +37,16 @@ CandidateSearch::CandidateSearch(const ResolvedScene& scene, std::vector<Searche
 
 StudyPoint CandidateSearch::pointAt(const StudyPoint& own, const ResolvedScheme& scheme, double n) const {
     StudyPoint point = own;
-    if (scheme.isAdaptive())
+    if (scheme.isAdaptive()) {
         point.tolerance = 1 / n;
-    else if (!hasStepOfItsSpace(scene_, scheme))
+    } else if (const double courant = courantOf(scheme, scene_); courant > 0) {
+        const double given = std::round(length_ / own.step);
+        if (n == given) return point;
+        point.reduction.courant = courant * given / n;
+        point.step = own.step * given / n;
+    } else if (!hasStepOfItsSpace(scene_, scheme)) {
         point.step = length_ / n;
+    }
     return point;
 }
 
@@ -107,9 +113,10 @@ RaceEntry CandidateSearch::entryFor(const StudyPoint& own, const ResolvedScheme&
     RaceEntry entry;
     entry.isAdaptive = scheme.isAdaptive();
     entry.order = entry.isAdaptive ? 1 : scheme.claims.order > 0 ? scheme.claims.order : 2;
-    entry.isSingle = hasStepOfItsSpace(scene_, scheme);
+    const bool isOfSpace = hasStepOfItsSpace(scene_, scheme);
+    entry.isSingle = isOfSpace && (!knobs_.isCourant || courantOf(scheme, scene_) == 0);
     entry.hasOtherKnob = knobs_.isCells && !entry.isSingle && cellsOf(scheme, scene_) > 0;
-    if (entry.isSingle)
+    if (isOfSpace)
         entry.firstN = std::max(1.0, std::round(length_ / own.step));
     else if (!entry.hasOtherKnob)
         findStart(own, scheme, entry);
@@ -139,7 +146,8 @@ RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& sche
     const auto& [result, cost] = known->second;
     RaceRun run{job.n, excessOf(result, wishes), cost, false, result.isCutOff, false};
     run.isSaturated = run.excess > 0 && isSaturated(result);
-    run.isAtFloor = result.cause == Outcome::refused;
+    // A Courant number may be too large; everything else is refused whatever the step.
+    run.isAtFloor = result.cause == Outcome::refused && result.reduction.courant == 0;
     for (std::size_t i = 0; i < wishes.size() && run.excess > 0 && result.isDone(); ++i) {
         const double value = result.errorIn(i);
         run.isAtFloor = run.isAtFloor || (value > wishes[i] && value <= floorOf(i));

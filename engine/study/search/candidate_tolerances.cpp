@@ -14,8 +14,8 @@ namespace extremal {
 /// From a hundredth of the wish on, in relation to the size of what is wished for: a hundred times looser
 /// while that is cheaper and the wishes hold, or else tighter until they do.
 void CandidateSearch::loosen(std::size_t index, std::span<const double> wishes, PointResult& result) {
-    constexpr double part = 1e-2, factor = 100, tightest = 1e-13, loosest = 1e-2, worthIt = 0.95;
-    constexpr int times = 3;
+    constexpr double part = 1e-2, worthIt = 0.95;
+    constexpr int fewest = 2, most = 13, step = 2, times = 3;  // digits of the tolerance
     if (!schemeOf(index).family || result.tolerance > 0) return;
     double relative = HUGE_VAL;
     for (std::size_t i = 0; i < wishes.size(); ++i) {
@@ -48,18 +48,17 @@ void CandidateSearch::loosen(std::size_t index, std::span<const double> wishes, 
     const auto isBetter = [&](const PointResult& r) {
         return r.isDone() && r.excess <= 0 && costOf(own, r) < least;
     };
-    const double first = std::pow(10, std::floor(std::log10(std::clamp(part * relative, tightest, loosest))));
+    const int first = std::clamp(static_cast<int>(std::ceil(-std::log10(part * relative))), fewest, most);
     bool isFound = false;
-    for (double tolerance = first; tolerance <= 1.01 * loosest && !isTimeUp(); tolerance *= factor) {
-        PointResult r = runAt(tolerance);
+    for (int digits = first; digits >= fewest && !isTimeUp(); digits -= step) {
+        PointResult r = runAt(std::pow(10.0, -digits));
         if (!isBetter(r)) break;
         least = costOf(own, r);
         best = std::move(r);
         isFound = true;
     }
-    for (double tolerance = first / factor; tolerance >= 0.99 * tightest && !isFound && !isTimeUp();
-         tolerance /= factor) {
-        PointResult r = runAt(tolerance);
+    for (int digits = first + step; digits <= most && !isFound && !isTimeUp(); digits += step) {
+        PointResult r = runAt(std::pow(10.0, -digits));
         isFound = isBetter(r);
         if (isFound) best = std::move(r);
     }

@@ -11,7 +11,7 @@ namespace extremal {
 
 SearchKnobs parseKnobs(const std::string& text) {
     if (text.empty()) return {};
-    SearchKnobs knobs{false, false, false};
+    SearchKnobs knobs{false, false, false, false};
     for (std::size_t from = 0; from <= text.size();) {
         const std::size_t comma = std::min(text.find(',', from), text.size());
         const std::string name = text.substr(from, comma - from);
@@ -19,11 +19,13 @@ SearchKnobs parseKnobs(const std::string& text) {
             knobs.isDegree = true;
         else if (name == "cells")
             knobs.isCells = true;
+        else if (name == "courant")
+            knobs.isCourant = true;
         else if (name == "tolerance")
             knobs.isTolerance = true;
         else if (name != "step")
             throw InvalidScene("--knobs", "there is no knob \"" + name + "\"",
-                               "step, degree, cells, tolerance");
+                               "step, degree, cells, courant, tolerance");
         from = comma + 1;
     }
     return knobs;
@@ -31,7 +33,7 @@ SearchKnobs parseKnobs(const std::string& text) {
 
 std::string textOf(const SearchKnobs& knobs) {
     return std::string("step") + (knobs.isDegree ? ",degree" : "") + (knobs.isCells ? ",cells" : "") +
-           (knobs.isTolerance ? ",tolerance" : "");
+           (knobs.isCourant ? ",courant" : "") + (knobs.isTolerance ? ",tolerance" : "");
 }
 
 }  // namespace extremal

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What a search may change besides the step or the tolerance of a scheme.
 ///
-///     --knobs step,degree,cells,tolerance     all but the last by default; the step is always searched
+///     --knobs step,degree,cells,courant,tolerance     all but the last by default; the step is always
+///     searched
 ///
 /// The tolerance of the solver costs what equations solved to round-off give: momentum maps, symplecticity.
 /// So it is searched only if it is asked for.
@@ -14,6 +15,7 @@ namespace extremal {
 struct SearchKnobs {
     bool isDegree = true;      ///< degree and nodes, of schemes of the scene
     bool isCells = true;       ///< elements in space, of schemes on meshes
+    bool isCourant = true;     ///< the number that steps follow from, of schemes that have one
     bool isTolerance = false;  ///< of the solver, of implicit schemes
     bool operator==(const SearchKnobs&) const = default;
 };

@@ -3,6 +3,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/family/parts/meshes.hpp"
+#include "engine/study/search/ladder.hpp"
 
 namespace extremal {
 namespace {
@@ -12,11 +13,11 @@ int wholeNumber(const Settings& settings, const char* key) {
     return value && value->isNumber() ? settings.integer(key) : 0;
 }
 
-void set(Settings& settings, const char* key, int value) {
+void set(Settings& settings, const char* key, double value) {
     bool isThere = false;
     for (auto& [name, present] : settings.keys)
-        if (name == key) present = static_cast<double>(value), isThere = true;
-    if (!isThere) settings.keys.emplace_back(key, static_cast<double>(value));
+        if (name == key) present = value, isThere = true;
+    if (!isThere) settings.keys.emplace_back(key, value);
     std::erase_if(settings.expressions, [&](const Value::Member& m) { return m.first == key; });
 }
 
@@ -39,6 +40,12 @@ int cellsOf(const ResolvedScheme& scheme, const ResolvedScene& scene) {
     return own > 0 ? own : wholeNumber(scene.scene.model, "cells");
 }
 
+double courantOf(const ResolvedScheme& scheme, const ResolvedScene& scene) {
+    if (!scheme.family || !hasStepOfItsSpace(scene, scheme)) return 0;
+    const Value* const given = scheme.discretization.space.find("courant");
+    return given && given->isNumber() ? given->asNumber() : 0;
+}
+
 ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const ResolvedScene& scene) {
     if (!to) return scheme;
     SchemeSpec spec = scheme.spec;
@@ -47,7 +54,7 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
         std::erase_if(spec.solver.keys, [](const Value::Member& m) { return m.first == "tolerance"; });
         spec.solver.keys.emplace_back("tolerance", to.solver);
     }
-    if (to.degree > 0 || to.cells > 0) {
+    if (to.degree > 0 || to.cells > 0 || to.courant > 0) {
         spec.kind = SchemeSpec::Kind::discretization;
         spec.named.clear();
         spec.space = scheme.discretization.space;
@@ -58,6 +65,11 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
         set(spec.quadrature, "nodes", to.nodes);
     }
     if (to.cells > 0) set(spec.space, "cells", to.cells);
+    if (to.courant > 0) {
+        const double own = scheme.discretization.space.number("courant");
+        set(spec.space, "courant", to.courant);
+        spec.step = {scheme.spec.step.value * to.courant / own, {}};
+    }
     ResolvedScheme result = resolve(spec, scene.system.get());
     if (!result.properties.refusal.empty()) throw InvalidScene("/quadrature", result.properties.refusal);
     if (!result.properties.instability.empty()) throw InvalidScene("/space", result.properties.instability);

@@ -8,12 +8,12 @@
 
 namespace extremal {
 
-/// The degree of a space, the nodes of its rule, its elements, and the tolerance of its solver; 0: not
-/// changed.
+/// The degree of a space, the nodes of its rule, its elements, the tolerance of its solver, and the Courant
+/// number that its steps follow from; 0: not changed.
 struct Reduction {
     int degree = 0, nodes = 0, cells = 0;
-    double solver = 0;
-    explicit operator bool() const { return degree > 0 || cells > 0 || solver > 0; }
+    double solver = 0, courant = 0;
+    explicit operator bool() const { return degree > 0 || cells > 0 || solver > 0 || courant > 0; }
     bool operator==(const Reduction&) const = default;
 };
 
@@ -22,6 +22,9 @@ Reduction richnessOf(const ResolvedScheme& scheme);
 
 /// The elements of a scheme whose space may have any number of them; 0: it has none.
 int cellsOf(const ResolvedScheme& scheme, const ResolvedScene& scene);
+
+/// The Courant number of a scheme whose steps follow from it; 0: they do not.
+double courantOf(const ResolvedScheme& scheme, const ResolvedScene& scene);
 
 /// The scheme with another degree and number of nodes; itself where nothing is reduced. Throws
 /// InvalidScene where there is no such scheme.

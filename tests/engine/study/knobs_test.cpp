@@ -15,6 +15,7 @@
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/convergence.hpp"
 #include "engine/study/expected_time.hpp"
+#include "engine/study/search/reductions.hpp"
 #include "engine/study/sweep.hpp"
 #include "engine/study/sweep_log.hpp"
 #include "tests/tools/test.hpp"
@@ -98,6 +99,26 @@ private slots:
         // And it can be run again as it was found.
         const ResolvedScheme again = schemeAt(loose.scene(), 0, without);
         QCOMPARE(again.discretization.solver.number("tolerance"), without.reduction.solver);
+    }
+    void theCourantNumberIsSearched() {
+        SweepOptions options = untimed();
+        options.wantedError = 1e-2;
+        Sweep sweep(sceneOf("bar-notch"), options);
+        options.knobs.isCourant = false;
+        Sweep fixed(sceneOf("bar-notch"), options);
+        runAll(sweep);
+        runAll(fixed);
+        for (std::size_t i = 0; i < sweep.rows().size(); ++i) {
+            const PointResult &own = fixed.rows()[i].result, &found = sweep.rows()[i].result;
+            const double courant = courantOf(sweep.scene().schemes[i], sweep.scene());
+            qInfo("Courant number %g in place of %g: %lld evaluations in place of %lld, error %.1e",
+                  found.reduction.courant, courant, found.cost.evaluations, own.cost.evaluations,
+                  found.error);
+            QVERIFY(own.reduction.courant == 0 && courant > 0);
+            QVERIFY(found.isDone() && found.error <= 1e-2 && found.reduction.courant > courant);
+            QVERIFY(found.cost.evaluations < own.cost.evaluations);
+            QVERIFY(std::abs(found.step / own.step - found.reduction.courant / courant) < 1e-12);
+        }
     }
     void theLogHasWhatWasTried() {
         SweepOptions options = untimed();
