@@ -3,7 +3,7 @@
 
 #include "engine/model/field/profile.hpp"
 #include "engine/model/plane_field/start.hpp"
-#include "engine/model/wave/packet.hpp"
+#include "engine/model/wave/start/packet.hpp"
 
 namespace extremal {
 

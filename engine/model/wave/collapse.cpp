@@ -26,6 +26,10 @@ double tailOf(const Hamiltonian& h, const Complex* c) {
 
 }  // namespace
 
+double criticalNorm(const Hamiltonian& h, double g) {
+    return 5.85043 * h.hbar() * h.hbar() / (h.mass() * std::abs(g));
+}
+
 ValidityLimit collapseLimit(const std::shared_ptr<const Hamiltonian>& h, Coupling coupling) {
     ValidityLimit limit;
     limit.from = [h, coupling](const State& start) -> ValidityLimit::Holds {
@@ -39,7 +43,7 @@ ValidityLimit collapseLimit(const std::shared_ptr<const Hamiltonian>& h, Couplin
     limit.why = [h, coupling](const State& start, const State& end) {
         const Complex *const c = coefficients(start.x.data()), *const d = coefficients(end.x.data());
         const double E = coupledEnergy(h, coupling, start.t, c), norm = squaredNorm(c, h->size()),
-                     critical = 5.85043 * h->hbar() * h->hbar() / (h->mass() * std::abs(coupling.g));
+                     critical = criticalNorm(*h, coupling.g);
         std::string text = "The pulse became finer than the mesh: " + formatNumber(tailOf(*h, d), 2) +
                            " of the norm is in the upper eighth of the modes, and the energy went from " +
                            formatNumber(E, 3) + " to " +

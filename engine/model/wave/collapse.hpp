@@ -17,6 +17,9 @@
 
 namespace extremal {
 
+/// N_c, of the square of the norm.
+double criticalNorm(const Hamiltonian& h, double g);
+
 ValidityLimit collapseLimit(const std::shared_ptr<const Hamiltonian>& h, Coupling coupling);
 
 }  // namespace extremal

@@ -7,7 +7,7 @@
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/model/wave/rotation.hpp"
 #include "engine/model/wave/spectrum.hpp"
-#include "engine/model/wave/vortices.hpp"
+#include "engine/model/wave/start/vortices.hpp"
 
 namespace extremal {
 namespace {

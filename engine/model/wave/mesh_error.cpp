@@ -10,7 +10,8 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/model/wave/basis/eigen.hpp"
-#include "engine/model/wave/packet.hpp"
+#include "engine/model/wave/start/cloud.hpp"
+#include "engine/model/wave/start/packet.hpp"
 
 namespace extremal {
 namespace {
@@ -85,7 +86,7 @@ Coefficients startOn(const Shared& h, const Settings& given) {
     if (!psi || psi->find("values")) return {};
     // A state of a mesh is the function to be followed; that of another one may differ by a phase.
     if (const Value* const name = psi->find("packet");
-        name && name->isString() && name->asString() == "eigenstate")
+        name && name->isString() && (name->asString() == "eigenstate" || wave::isAtRest(*psi)))
         return {};
     try {
         return wave::makePacket(*psi, "/psi", given.flag("normalise"), h,

@@ -13,7 +13,7 @@
 #include "engine/model/parts/premise_check.hpp"
 #include "engine/model/wave/levels.hpp"
 #include "engine/model/wave/mesh_error.hpp"
-#include "engine/model/wave/packet.hpp"
+#include "engine/model/wave/start/packet.hpp"
 #include "engine/model/wave/spectrum.hpp"
 
 namespace extremal {

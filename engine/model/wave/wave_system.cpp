@@ -13,8 +13,9 @@
 #include "engine/model/wave/collapse.hpp"
 #include "engine/model/wave/interaction.hpp"
 #include "engine/model/wave/measures.hpp"
-#include "engine/model/wave/packet.hpp"
-#include "engine/model/wave/soliton.hpp"
+#include "engine/model/wave/start/cloud.hpp"
+#include "engine/model/wave/start/packet.hpp"
+#include "engine/model/wave/start/soliton.hpp"
 #include "engine/model/wave/spectrum.hpp"
 #include "engine/model/wave/wave_parts.hpp"
 
@@ -88,6 +89,16 @@ std::vector<double> stateOf(const Hamiltonian& h, const wave::LineSolution& psi,
     return {numbers, numbers + 2 * c.size()};
 }
 
+/// exp(-i mu (t - t0)/hbar) psi0, of a state that rests.
+ExactSolution turningState(const Shared& h, Coupling coupling, const State& start) {
+    const double mu = chemicalPotential(h, coupling, start.t, coefficients(start.x.data()));
+    return [h, mu, start](double t, std::span<double> x) {
+        const Complex turn = std::polar(1.0, -mu * (t - start.t) / h->hbar());
+        for (int i = 0; i < h->size(); ++i)
+            coefficients(x.data())[i] = turn * coefficients(start.x.data())[i];
+    };
+}
+
 void useCoupling(System& s, const Shared& h, Coupling coupling) {
     if (coupling.g != 0) s.parts.set(Interaction{coupling.g});
     if (coupling.omega != 0) s.parts.set(Rotation{coupling.omega});
@@ -95,9 +106,10 @@ void useCoupling(System& s, const Shared& h, Coupling coupling) {
         return coupledEnergy(h, coupling, t, coefficients(x));
     };
     if (h->dimension() == 2 && coupling.g < 0) s.parts.set(collapseLimit(h, coupling));
-    s.exactFrom = [h, g = coupling.g](const Settings& initial, const State&) -> ExactSolution {
-        const auto soliton = wave::solitonOf(*initial.find("psi"), "/psi", *h, g);
-        if (!soliton || g > 0 || !wave::vanishesAtEnds(*soliton, *h)) return {};
+    s.exactFrom = [h, coupling](const Settings& initial, const State& start) -> ExactSolution {
+        if (wave::isAtRest(*initial.find("psi"))) return turningState(h, coupling, start);
+        const auto soliton = wave::solitonOf(*initial.find("psi"), "/psi", *h, coupling.g);
+        if (!soliton || coupling.g > 0 || !wave::vanishesAtEnds(*soliton, *h)) return {};
         return [h, psi = *soliton](double t, std::span<double> x) {
             const std::vector<double> state = stateOf(*h, psi, t);
             std::copy(state.begin(), state.end(), x.begin());
@@ -126,12 +138,12 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
     s.draw = [h](const double* values, Drawing& drawing) { drawWave(*h, values, drawing); };
     s.frequency = [h](double t, const double* x) { return frequencyOf(*h, t, x); };
     s.caution = [h](const double* x) { return resolutionCaution(*h, coefficients(x)); };
-    s.start = [h, g = coupling.g](const Settings& initial, double t) {
-        const auto soliton = wave::solitonOf(*initial.find("psi"), "/psi", *h, g);
+    s.start = [h, coupling](const Settings& initial, double t) {
+        const auto soliton = wave::solitonOf(*initial.find("psi"), "/psi", *h, coupling.g);
         if (soliton) return stateOf(*h, *soliton, t);
         const std::vector<Complex> c =
             wave::makePacket(*initial.find("psi"), "/psi", initial.flag("normalise"), h,
-                             {{"hbar", h->hbar()}, {"m", h->mass()}});
+                             {{"hbar", h->hbar()}, {"m", h->mass()}}, coupling);
         const double* numbers = reinterpret_cast<const double*>(c.data());
         return std::vector<double>(numbers, numbers + 2 * c.size());
     };

@@ -11,7 +11,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/model/wave/interaction.hpp"
 #include "engine/model/wave/measures.hpp"
-#include "engine/model/wave/vortices.hpp"
+#include "engine/model/wave/start/vortices.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "tests/laws/laws.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/core/problem.hpp"
-#include "engine/model/wave/packet.hpp"
+#include "engine/model/wave/start/packet.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::rectangle_test {

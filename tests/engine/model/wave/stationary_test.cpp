@@ -9,8 +9,8 @@
 #include "engine/core/problem.hpp"
 #include "engine/model/wave/basis/convolution.hpp"
 #include "engine/model/wave/basis/eigen.hpp"
-#include "engine/model/wave/packet.hpp"
-#include "engine/model/wave/stationary.hpp"
+#include "engine/model/wave/start/packet.hpp"
+#include "engine/model/wave/start/stationary.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::stationary_test {

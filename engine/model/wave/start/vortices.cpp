@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/wave/vortices.hpp"
+#include "engine/model/wave/start/vortices.hpp"
 
 #include <algorithm>
 #include <array>

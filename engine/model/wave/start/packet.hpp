@@ -8,6 +8,8 @@
 ///     {"packet": "eigenstate", n}                     of a potential that does not depend on time
 ///     {"packet": "vortices", positions, charges, ..}  on a rectangle (vortices.hpp)
 ///     {"packet": "plane-wave", wave_number}           exp(i wave_number x)
+///     {"packet": "ground-state", norm}                with an interaction (cloud.hpp)
+///     {"packet": "thomas-fermi", norm}                with repulsion
 ///     {"values": {"re": [..], "im": [..]}}            at the nodes
 /// On a periodic domain x - centre is taken to the nearest copy of the centre, and the periodic packet has
 /// the domain's own period: cos(2 pi (x - centre)/L), kappa and wave_number being per radian of it where L =
@@ -21,16 +23,18 @@
 
 #include "engine/core/catalog.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
+#include "engine/model/wave/interaction.hpp"
 
 namespace extremal::wave {
 
 /// The packets that have names, with their keys.
 std::vector<CatalogItem> packets();
 
-/// Coefficients c, of norm 1 if wanted. Throws InvalidScene with pointers that start with `pointer`.
+/// Coefficients c, of norm 1 if wanted, but for clouds at rest, which have a norm among their keys. Throws
+/// InvalidScene with pointers that start with `pointer`.
 std::vector<Complex> makePacket(const Value& psi, const std::string& pointer, bool isNormalised,
                                 const std::shared_ptr<const Hamiltonian>& hamiltonian,
-                                const Constants& constants);
+                                const Constants& constants, Coupling coupling = {});
 
 /// psi before it is scaled, at any places of an interval, where it is a Gaussian or typed; else empty.
 std::vector<Complex> valuesAt(const Value& psi, const std::string& pointer,

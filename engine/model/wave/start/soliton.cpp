@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/wave/soliton.hpp"
+#include "engine/model/wave/start/soliton.hpp"
 
 #include <algorithm>
 #include <cmath>
