@@ -24,19 +24,25 @@ Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic> collocationMatrix(const Rule<T>
     return A;
 }
 
-/// The Lagrange polynomial j at 1 + c_i, at the place i s + j: values at the nodes of the next step, of the
-/// same length, by the polynomial through those of this one.
-inline std::vector<double> extrapolationTable(const Rule<double>& rule) {
-    const std::vector<double>& c = rule.c;
+/// The Lagrange polynomial j of the nodes c at the place x_i, at the place i s + j of the result.
+inline std::vector<double> lagrangeTable(const std::vector<double>& c, const std::vector<double>& x) {
     std::vector<double> table;
-    for (const double from : c)
+    for (const double at : x)
         for (std::size_t j = 0; j < c.size(); ++j) {
             double product = 1;
             for (std::size_t k = 0; k < c.size(); ++k)
-                if (k != j) product *= (1 + from - c[k]) / (c[j] - c[k]);
+                if (k != j) product *= (at - c[k]) / (c[j] - c[k]);
             table.push_back(product);
         }
     return table;
+}
+
+/// The Lagrange polynomials at 1 + c_i: values at the nodes of the next step, of the same length, by the
+/// polynomial through those of this one.
+inline std::vector<double> extrapolationTable(const Rule<double>& rule) {
+    std::vector<double> ahead = rule.c;
+    for (double& c : ahead) c += 1;
+    return lagrangeTable(rule.c, ahead);
 }
 
 }  // namespace extremal

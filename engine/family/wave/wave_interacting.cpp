@@ -42,10 +42,36 @@ inline void combineLanes(const double* table, std::size_t rows, std::size_t stag
     }
 }
 
+/// 2s nodes of Gauss beside the s of a rule, for the exact integral over time.
+class FineNodes {
+public:
+    explicit FineNodes(const Rule<double>& rule) : rule_(gauss<double>(2 * rule.size())) {
+        std::vector<double> knots{0};
+        knots.insert(knots.end(), rule.c.begin(), rule.c.end());
+        width_ = knots.size();
+        values_ = lagrangeTable(knots, rule_.c);
+        // The Lagrange polynomials of Gauss nodes are orthogonal, with the weights as their squares.
+        const std::vector<double> basis = lagrangeTable(rule.c, rule_.c);
+        for (std::size_t j = 0; j < rule.c.size(); ++j)
+            for (std::size_t i = 0; i < size(); ++i)
+                projection_.push_back(rule_.b[i] * basis[i * rule.c.size() + j] / rule.b[j]);
+    }
+    std::size_t size() const { return rule_.c.size(); }
+    /// At node i of the polynomial through the start (j = 0) and the s nodes.
+    double values(std::size_t i, std::size_t j) const { return values_[i * width_ + j]; }
+    /// At node j of the rule, of the projection on degree s - 1 of what has values at the nodes i.
+    double projection(std::size_t j, std::size_t i) const { return projection_[j * size() + i]; }
+
+private:
+    Rule<double> rule_;
+    std::size_t width_ = 0;
+    std::vector<double> values_, projection_;
+};
+
 class InteractingWave final : public WaveStep {
 public:
     InteractingWave(std::shared_ptr<const Hamiltonian> hamiltonian, Coupling coupling, double step,
-                    double shift, int degree, double tolerance, int maxIterations)
+                    double shift, int degree, double tolerance, int maxIterations, InTime inTime)
         : WaveStep(std::move(hamiltonian), step, shift),
           coupling_(coupling),
           rule_(gauss<double>(degree)),
@@ -57,7 +83,11 @@ public:
           width_((size_ + lanes - 1) / lanes * lanes) {
         v_.resize(2 * width_);
         for (auto* rows : {&R_, &last_, &Psi_}) rows->resize(2 * width_ * stages_);
-        nodes_.resize(size_ * stages_);
+        if (inTime == InTime::exact) {
+            fine_.emplace(rule_);
+            for (auto* rows : {&fineR_, &finePsi_}) rows->resize(2 * width_ * fine_->size());
+        }
+        nodes_.resize(size_ * (fine_ ? fine_->size() : stages_));
         psi_.resize(size_);
         modes_.resize(size_);
         rest_.resize(size_);
@@ -148,10 +178,10 @@ private:
             }
             ++report.cost.iterations;
             combine(stageTable_.data(), stages_, stages_, width_, v_.data(), R_.data(), Psi_.data());
-            double squares = 0;
-            for (std::size_t i = 0; i < stages_; ++i) squares += evaluate(i);
-            report.cost.evaluations += static_cast<long long>(stages_);
-            const double change = std::sqrt(squares / (static_cast<double>(stages_) * norm));
+            const std::size_t nodes = fine_ ? fine_->size() : stages_;
+            const double squares = evaluate();
+            report.cost.evaluations += static_cast<long long>(nodes);
+            const double change = std::sqrt(squares / (static_cast<double>(nodes) * norm));
             report.residual = change;
             if (!std::isfinite(change)) {
                 report.outcome = Outcome::notFinite;
@@ -169,9 +199,34 @@ private:
         together(Psi_.data(), v);
         hasLast_ = true;
     }
-    /// R of stage i from Psi; the square of the change of psi, in the measure of coefficients.
-    double evaluate(std::size_t i) {
-        together(Psi_.data() + 2 * i * width_, modes_.data());
+    /// R of all stages from Psi; the square of the change of psi at the nodes, in the measure of
+    /// coefficients.
+    double evaluate() {
+        double squares = 0;
+        if (!fine_) {
+            for (std::size_t i = 0; i < stages_; ++i)
+                squares += evaluate(i, Psi_.data() + 2 * i * width_, R_.data() + 2 * i * width_);
+            return squares;
+        }
+        const std::size_t row = 2 * width_;
+        const auto mix = [&](std::vector<double>& out, std::size_t i, const double* from, std::size_t j,
+                             double weight) {
+            double* const to = out.data() + i * row;
+            for (std::size_t m = 0; m < row; ++m) to[m] = (j == 0 ? 0 : to[m]) + weight * from[m];
+        };
+        for (std::size_t i = 0; i < fine_->size(); ++i) {
+            for (std::size_t j = 0; j <= stages_; ++j)
+                mix(finePsi_, i, j == 0 ? v_.data() : Psi_.data() + (j - 1) * row, j, fine_->values(i, j));
+            squares += evaluate(i, finePsi_.data() + i * row, fineR_.data() + i * row);
+        }
+        for (std::size_t j = 0; j < stages_; ++j)
+            for (std::size_t i = 0; i < fine_->size(); ++i)
+                mix(R_, j, fineR_.data() + i * row, i, fine_->projection(j, i));
+        return squares;
+    }
+    /// R at node i from psi there.
+    double evaluate(std::size_t i, const double* Psi, double* R) {
+        together(Psi, modes_.data());
         hamiltonian().fourier().rawToNodes(modes_.data(), psi_.data());
         const double scale = 1 / static_cast<double>(size_),
                      density = coupling_.g / hamiltonian().grid().measure();
@@ -187,7 +242,7 @@ private:
         }
         if (turn_) turn_->add(modes_.data(), -coupling_.omega * scale, psi_.data());
         hamiltonian().fourier().rawToCoefficients(psi_.data(), modes_.data());
-        apart(modes_.data(), R_.data() + 2 * i * width_);
+        apart(modes_.data(), R);
         return squares * scale;
     }
     void apart(const Complex* from, double* row) const {
@@ -208,6 +263,8 @@ private:
     int maxIterations_;
     std::size_t stages_, size_, width_;
     bool hasLast_ = false;
+    std::optional<FineNodes> fine_;
+    std::vector<double> fineR_, finePsi_;
     std::vector<double> stageTable_, endTable_;
     std::vector<double> v_, R_, last_, Psi_;
     std::vector<double> rest_;  ///< V - Ec - w at the nodes
@@ -218,9 +275,9 @@ private:
 
 std::unique_ptr<WaveStep> makeInteractingWave(std::shared_ptr<const Hamiltonian> hamiltonian,
                                               Coupling coupling, double step, double shift, int degree,
-                                              double tolerance, int maxIterations) {
+                                              double tolerance, int maxIterations, InTime inTime) {
     return std::make_unique<InteractingWave>(std::move(hamiltonian), coupling, step, shift, degree, tolerance,
-                                             maxIterations);
+                                             maxIterations, inTime);
 }
 
 }  // namespace extremal

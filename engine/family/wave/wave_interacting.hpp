@@ -9,6 +9,11 @@
 /// of the last step. w changes nothing in the equations: it is the middle of V - Ec where h max |V - Ec|/hbar
 /// is more than 2, and 0 elsewhere, where the iteration is faster without it. Order 2s; the norm is conserved
 /// to the tolerance, as every quadratic invariant is, the energy bounded.
+///
+/// With InTime::exact the integral over time of |psi|^4 is exact in place of that rule: R_j is the projection
+/// of R on polynomials of degree s - 1, by Gauss with 2s nodes. Order 2s, energy to the tolerance, norm
+/// bounded; it is no stationary point of a sum, and not symplectic (continuous Petrov-Galerkin; Akrivis,
+/// Dougalis and Karakashian 1991).
 #pragma once
 
 #include <memory>
@@ -18,10 +23,13 @@
 
 namespace extremal {
 
+enum class InTime { gauss, exact };
+
 /// `shift`: Ec, or NaN for the chemical potential of the first state that is seen. tolerance 0: to round-off.
 /// V does not depend on time, and the domain is periodic.
 std::unique_ptr<WaveStep> makeInteractingWave(std::shared_ptr<const Hamiltonian> hamiltonian,
                                               Coupling coupling, double step, double shift, int degree,
-                                              double tolerance, int maxIterations);
+                                              double tolerance, int maxIterations,
+                                              InTime inTime = InTime::gauss);
 
 }  // namespace extremal

@@ -119,8 +119,9 @@ PotentialLevels levelsOf(const SharedHamiltonian& h) {
 
 }  // namespace
 
-void addWaveParts(System& system, const SharedHamiltonian& h) {
-    system.parts.set(sizesOf(h));
+void addWaveParts(System& system, const SharedHamiltonian& h) { system.parts.set(sizesOf(h)); }
+
+void addLinearWaveParts(System& system, const SharedHamiltonian& h) {
     system.parts.set(levelsOf(h));
     system.parts.set(waveMeshError(h));
     system.parts.set(PremiseCheck{[h](const PremiseCheck::Run& run, const std::function<ExactSolution()>&) {

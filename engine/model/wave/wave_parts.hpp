@@ -10,7 +10,9 @@
 
 namespace extremal {
 
-/// Adds the parts of model/parts: PotentialLevels, CoefficientSizes, PremiseCheck and MeshError.
+/// Adds CoefficientSizes of model/parts.
 void addWaveParts(System& system, const std::shared_ptr<const Hamiltonian>& hamiltonian);
+/// Adds what linear equations have besides: PotentialLevels, PremiseCheck and MeshError.
+void addLinearWaveParts(System& system, const std::shared_ptr<const Hamiltonian>& hamiltonian);
 
 }  // namespace extremal

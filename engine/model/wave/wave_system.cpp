@@ -127,7 +127,8 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
     const auto numberAt = [&](const char* key) { return settings.find(key) ? settings.number(key) : 0; };
     const Coupling coupling{numberAt("interaction"), numberAt("rotation")};
     s.parts.set(Wave{h});
-    if (!coupling.isThere()) addWaveParts(s, h);  // they are of linear equations
+    addWaveParts(s, h);
+    if (!coupling.isThere()) addLinearWaveParts(s, h);
     s.isUnitary = true;
     s.linearTest = LinearTest::phases;
     s.measures = waveMeasures(h);

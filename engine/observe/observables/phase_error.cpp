@@ -2,6 +2,7 @@
 /// The phase by which a state is ahead of the reference (System::phaseError).
 #include <vector>
 
+#include "engine/model/wave/interaction.hpp"
 #include "engine/observe/catalog.hpp"
 
 namespace extremal::observables {
@@ -14,6 +15,7 @@ ObservableEntry phase_error() {
               {},
               {},
               "a wave function and a reference"};
+    e.takes = Takes::only<Wave, Interaction, Rotation>();
     e.needsReference = true;
     e.suits = [](const System& system) { return static_cast<bool>(system.phaseError.evaluate); };
     e.bind = [](const ObserveContext& context) {

@@ -23,7 +23,7 @@ System line(double half, int modes, double g) {
 }
 
 struct Found {
-    double error = 0, norm = 0, energy = 0;
+    double error = 0, norm = 0, energy = 0, whole = 0;  ///< energy: per norm; whole: norm² times it
 };
 
 Found foundBy(const char* id, const System& system, const Value& psi, double end, int steps) {
@@ -40,6 +40,8 @@ Found foundBy(const char* id, const System& system, const Value& psi, double end
     for (int k = 0; k < steps; ++k) {
         if (advance(*integrator, state).outcome != Outcome::converged) qFatal("a step failed");
         found.norm = std::max(found.norm, std::abs(squares(state) / before - 1));
+        const double whole = squares(state) / before * system.energy(state.t, state.x.data()) / energy;
+        found.whole = std::max(found.whole, std::abs(whole - 1));
         found.energy = std::max(found.energy, std::abs(system.energy(state.t, state.x.data()) / energy - 1));
     }
     std::vector<double> known(state.x.size());
@@ -90,6 +92,32 @@ private slots:
         QVERIFY(keepsNorm ? a.norm < 1e-12 : a.norm > 1e-10);
         QVERIFY(name == "delfour-fortin-payre" ? a.energy < 1e-12 : a.energy > 1e-9);
     }
+    void anExactIntegralOverTimeKeepsTheEnergyAndNotTheNorm() {
+        // The same table.
+        const System system = line(30, 2048, -1);
+        const Value psi = Value::Object{{"packet", "two-soliton"}};
+        struct Row {
+            int degree, coarse, fine;
+            double first, last, order;
+        };
+        for (const Row& row : {Row{1, 160, 1280, 1.40e-2, 2.19e-4, 2},
+                               {2, 80, 320, 3.73e-5, 1.46e-7, 4},
+                               {3, 40, 160, 1.63e-6, 2.9e-10, 6.2}}) {
+            const std::string id = "energy-" + std::to_string(row.degree);
+            const double end = std::numbers::pi / 2;
+            const Found a = foundBy(id.c_str(), system, psi, end, row.coarse),
+                        b = foundBy(id.c_str(), system, psi, end, row.fine);
+            const double order =
+                std::log(a.error / b.error) / std::log(static_cast<double>(row.fine) / row.coarse);
+            qInfo("%s: %.3e, %.3e, order %.2f; norm %.1e, %.1e, norm^2 times energy %.1e", id.c_str(),
+                  a.error, b.error, order, a.norm, b.norm, a.whole);
+            QVERIFY(std::abs(a.error / row.first - 1) < 0.03);
+            QVERIFY(std::abs(b.error / row.last - 1) < 0.05);
+            QVERIFY(std::abs(order - row.order) < 0.15);
+            QVERIFY(a.whole < 1e-12);
+            QVERIFY(a.norm > 1e-10 && b.norm > 1e-13);
+        }
+    }
     void thePlaneAndPotentialsThatDependOnTimeAreTaken() {
         // Against a splitting, whose error is smaller.
         const System plane = laws::systemNamed("schrodinger-2d", {{"domain", Value::Array{-7.0, 7.0}},
@@ -129,7 +157,7 @@ private slots:
         }
     }
     void rotationsAreRefused() {
-        for (const char* id : {"besse", "delfour-fortin-payre", "if-rk4", "etd-rk4"}) {
+        for (const char* id : {"besse", "delfour-fortin-payre", "if-rk4", "etd-rk4", "energy-2"}) {
             QVERIFY(findBaseline(id)->takes.contains(Interaction::part));
             QVERIFY(!findBaseline(id)->takes.contains(Rotation::part));
         }

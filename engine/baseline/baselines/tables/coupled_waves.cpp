@@ -3,11 +3,13 @@
 #include "engine/baseline/wave/coupled_waves.hpp"
 
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/family/wave/wave.hpp"
+#include "engine/family/wave/wave_interacting.hpp"
 #include "engine/model/wave/interaction.hpp"
 
 namespace extremal::baselines {
@@ -41,6 +43,27 @@ BaselineEntry exponential(const char* id, const char* title, const char* descrip
         [form](auto h, double g, double step) { return makeExponentialWave(std::move(h), g, step, form); });
 }
 
+/// Polynomials of degree s in time with an exact integral over time, of V that does not depend on it.
+BaselineEntry exactInTime(int s) {
+    const std::string id = "energy-" + std::to_string(s);
+    // What is observed is the energy per norm squared, which changes with the norm.
+    const Claims claims{2 * s, true, false, {"norm² times energy"}};
+    BaselineEntry e =
+        coupledWave(id.c_str(), ("energy by degree " + std::to_string(s) + " in time").c_str(),
+                    "Continuous Petrov-Galerkin: the integral over time is exact; norm² times energy, order "
+                    "2s, not symplectic.",
+                    claims, [s](auto h, double g, double step) {
+                        // Counted from elsewhere, E - Ec <1> would stay.
+                        return makeInteractingWave(std::move(h), {g, 0}, step, 0, s, 0, 0, InTime::exact);
+                    });
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
+    e.parts.set(ClaimsOnSystem{[claims](const System& system) {
+        if (couplingOf(system.parts).g != 0) return claims;
+        return Claims{claims.order, true, true, {"norm", "energy"}};  // without: Gauss
+    }});
+    return e;
+}
+
 }  // namespace
 
 std::vector<BaselineEntry> coupled_waves() {
@@ -65,6 +88,9 @@ std::vector<BaselineEntry> coupled_waves() {
         exponential("etd-rk4", "exponential time differencing RK4",
                     "Cox and Matthews: the free motion exactly, the rest by four stages; explicit.",
                     ExponentialForm::timeDifferencing),
+        exactInTime(1),
+        exactInTime(2),
+        exactInTime(3),
     };
 }
 

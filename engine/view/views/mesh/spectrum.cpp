@@ -2,6 +2,7 @@
 /// The size of each Fourier coefficient of the wave function at the end, with a Dirichlet boundary of each
 /// Chebyshev coefficient, on a logarithmic axis: is N enough? Over a rectangle the largest with each wave
 /// number along x, and with each along y.
+#include "engine/model/wave/interaction.hpp"
 #include "engine/view/catalog.hpp"
 
 namespace extremal::views {
@@ -13,7 +14,7 @@ ViewEntry spectrum() {
             .recipe = OwnRecipe{"spectrum"},
             .scales = {true, false, true},
             .products = {Product::frames},
-            .takes = Takes::only<Wave>()};
+            .takes = Takes::only<Wave, Interaction, Rotation>()};
 }
 
 }  // namespace extremal::views
