@@ -39,11 +39,63 @@ ReadScene read(const std::string& problem, const std::string& space, const std::
                      ", \"quadrature\": " + rule + "}]}");
 }
 
+/// A potential that is the same along all axes, in a part along an axis and one across it, each the mean over
+/// n axes at equal angles; with u and v in them for the coordinates along and across.
+std::string averaged(int n, const std::string& along, const std::string& across, double speed = 0.7) {
+    const std::string angle = "(2*pi*j/" + std::to_string(n) + ")";
+    const auto mean = [&](std::string term) {
+        for (const auto& [name, turned] :
+             {std::pair<std::string, std::string>{"u", "(x*cos" + angle + " + y*sin" + angle + ")"},
+              {"v", "(y*cos" + angle + " - x*sin" + angle + ")"}})
+            for (std::size_t k = 0; (k = term.find(name, k)) != std::string::npos; k += turned.size())
+                term.replace(k, 1, turned);
+        return "\"-sum(j, 1.." + std::to_string(n) + ", " + term + ")/" + std::to_string(n) + "\"";
+    };
+    return "\"model\": {\"type\": \"lagrangian\", \"coordinates\": [\"x\", \"y\"], \"parameters\": {}, "
+           "\"lagrangian\": {\"kinetic\": \"(x_t^2+y_t^2)/2\", \"along\": " +
+           mean(along) + ", \"across\": " + mean(across) +
+           "}}, \"initial\": {\"q\": [0.9, 0], \"v\": [0.1, " + formatNumber(speed) + "]}";
+}
+
+/// The largest change of the angular momentum in 400 steps, the parts under the midpoint rule and the
+/// trapezoidal one.
+double changeOfMomentum(const std::string& problem) {
+    const ReadScene scene =
+        read(problem, poly(1), "{\"otherwise\": \"midpoint\", \"across\": \"trapezoid\"}", 0.05, 20);
+    const auto integrator = tests::integratorOf(scene);
+    State state = scene.resolved->initial;
+    const auto momentum = [&] { return state.x[0] * state.x[3] - state.x[1] * state.x[2]; };
+    const double start = momentum();
+    double largest = 0;
+    for (int k = 1; k <= 400; ++k) {
+        if (integrator->advance(state, 0.05 * k).outcome != Outcome::converged) return 1e300;
+        largest = std::max(largest, std::abs(momentum() - start));
+    }
+    return largest;
+}
+
 }  // namespace
 
 class SplitTest : public QObject {
     Q_OBJECT
 private slots:
+    /// Rules by axes break the symmetry under rotations; the mean of the action over n of them finds the
+    /// harmonics of a polynomial of degree 4 where n divides neither 2 nor 4, and others exponentially well.
+    void theMeanOverRotationsKeepsTheMomentum() {
+        for (const int n : {1, 2, 3, 4, 5, 6, 7}) {
+            const double change = changeOfMomentum(averaged(n, "u^4", "(v^4 + 2*u^2*v^2)"));
+            qInfo("U = r^4, %d axes: momentum moves by %.1e", n, change);
+            QVERIFY(n == 1 || n == 2 || n == 4 ? change > 3e-4 : change < 5e-15);
+        }
+        double before = 1;
+        for (const int n : {1, 3, 5, 7, 9}) {
+            const double change = changeOfMomentum(averaged(n, "(-u^2/(u^2 + v^2/2)/sqrt(x^2 + y^2))",
+                                                            "(-v^2/2/(u^2 + v^2/2)/sqrt(x^2 + y^2))", 1));
+            qInfo("U = -1/r, %d axes: momentum moves by %.1e", n, change);
+            QVERIFY(change < before / 3);
+            before = change;
+        }
+    }
     void oneRuleForAllTermsIsThatRule() {
         const auto split = after(
             read(twoSprings(), poly(3), "{\"fast\": " + gauss(3) + ", \"otherwise\": " + gauss(3) + "}", 0.1),
