@@ -242,7 +242,9 @@ private:
     Square gradient_;             ///< (i, k): L_q, then L_v
     Flat node_, weight_, times_;  ///< c_i, h b_i, t_i
     Vector q0_, p0_, v0_, a0_, dq_, dp_;
-    Vector carryQ_, carryP_, lastQ_, lastP_;  ///< lost to rounding; and the state it belongs to
+    Square mass_;                                 ///< at the start of the step
+    mutable Square ownCoefficients_, ownForces_;  ///< room for coefficients()
+    Vector carryQ_, carryP_, lastQ_, lastP_;      ///< lost to rounding; and the state it belongs to
     Vector placeQ_, placeV_;
     // Of the iteration on transposed equations: (coordinate, node) and (coordinate, unknown).
     Square tested_, pulled_, right_, next_, dual_;

@@ -63,6 +63,9 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     for (Flat* f : {&Y_, &previousY_, &R_, &delta_}) *f = Flat::Zero(size);
     for (Columns* c : {&nodeQ_, &nodeV_}) *c = Columns::Zero(rows(), d());
     gradient_ = Square::Zero(rows(), 2 * d());
+    ownCoefficients_ = Square::Zero(m(0), d());
+    ownForces_ = Square::Zero(n(), d());
+    mass_ = Square::Zero(d(), d());
     for (Vector* v : {&q0_, &p0_, &v0_, &a0_, &dq_, &dp_, &carryQ_, &carryP_, &lastQ_, &lastP_, &placeQ_,
                       &placeV_, &eta_, &rate_, &byQ_, &byV_})
         *v = Vector::Zero(d());
@@ -115,9 +118,8 @@ void GalerkinStep<T, D>::coefficients(T* Y) const {
         std::copy_n(Y_.data(), Y_.size(), Y);
         return;
     }
-    Square own(m(0), d()), forces(n(), d());
-    withFixedPoint([&](const auto& solver) { solver.coefficients(own, forces); });
-    std::copy_n(own.data(), own.size(), Y);
+    withFixedPoint([&](const auto& solver) { solver.coefficients(ownCoefficients_, ownForces_); });
+    std::copy_n(ownCoefficients_.data(), ownCoefficients_.size(), Y);
 }
 
 /// Starts from (q, p), and from what the last step could not add if this is where it ended.

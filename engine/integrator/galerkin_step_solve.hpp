@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "engine/core/algebra/elimination.hpp"
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/solve/step_continuation.hpp"
 
@@ -41,9 +42,9 @@ bool GalerkinStep<T, D>::startVelocity(const T& t) {
     ++report_.cost.evaluations;
     const Eigen::Map<const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> H(
         jetHessian_.data(), 2 * dim, 2 * dim);
-    Square mass = H.bottomRightCorner(dim, dim);
-    const Flat rhs = jetGradient_.head(dim) - H.bottomLeftCorner(dim, dim) * v0_;
-    a0_ = mass.partialPivLu().solve(rhs);
+    mass_ = H.bottomRightCorner(dim, dim);
+    a0_ = jetGradient_.head(dim) - H.bottomLeftCorner(dim, dim).lazyProduct(v0_);
+    eliminate(dim, mass_.data(), a0_.data());
     return a0_.allFinite();
 }
 

@@ -32,7 +32,7 @@ public:
         : Base(mechanics, step), jacobian_(mechanics) {
         const int d = this->d();
         for (Vector* v : {&q_, &p_, &dq_, &dp_}) *v = Vector::Zero(d);
-        r_ = BigVector::Zero(2 * d);
+        r_ = change_ = BigVector::Zero(2 * d);
         system_ = Square::Zero(2 * d, 2 * d);
         lu_ = Eigen::PartialPivLU<Square>(2 * d);
     }
@@ -54,15 +54,15 @@ private:
                 if (iteration == 0 || ratio > 0.25) assemble(t + half, half);
                 r_.head(d) = this->q0_ + half * dq_ - q_;
                 r_.tail(d) = this->p0_ + half * dp_ - p_;
-                r_ = lu_.solve(r_);
+                change_ = lu_.solve(r_);
                 ++this->report_.cost.linearSolves;
-                q_ += r_.head(d);
-                p_ += r_.tail(d);
+                q_ += change_.head(d);
+                p_ += change_.tail(d);
                 for (int k = 0; k < d; ++k) {
-                    watch.add(r_(k), q_(k) - this->q0_(k), this->q0_(k));
-                    watch.add(r_(d + k), p_(k) - this->p0_(k), this->p0_(k));
+                    watch.add(change_(k), q_(k) - this->q0_(k), this->q0_(k));
+                    watch.add(change_(d + k), p_(k) - this->p0_(k), this->p0_(k));
                 }
-                return Correction{r_.cwiseAbs().maxCoeff(),
+                return Correction{change_.cwiseAbs().maxCoeff(),
                                   std::max(q_.cwiseAbs().maxCoeff(), p_.cwiseAbs().maxCoeff()),
                                   watch.isSettled()};
             });
@@ -95,7 +95,7 @@ private:
     }
 
     Vector q_, p_, dq_, dp_;
-    BigVector r_;
+    BigVector r_, change_;
     Square system_, slope_;
     FlowJacobian jacobian_;
     Eigen::PartialPivLU<Square> lu_;
