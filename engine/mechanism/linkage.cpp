@@ -13,8 +13,10 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Blocks with less arithmetic than this part of what a full matrix takes are faster (bench/mechanism).
-constexpr double worthwhile = 0.25;
+/// Blocks with less arithmetic than this part of what a full matrix takes are faster (bench.chain_bench): of
+/// few unknowns each block costs something besides; three bodies in gimbals with 81, and 0.31 of the
+/// arithmetic, take a sixth of the time.
+double worthwhile(double unknowns) { return unknowns > 30 ? 0.5 : 0.25; }
 
 /// Constraints to blocks, by augmenting paths: each to one of those that it holds, and none to more than it
 /// has room for.
@@ -156,7 +158,7 @@ BlockLu Linkage::solver(int m) const {
 
 bool Linkage::isWorthwhile() const {
     const double size = d_ + n_;
-    return solver(1).work() < worthwhile * size * size * size / 3;
+    return solver(1).work() < worthwhile(size) * size * size * size / 3;
 }
 
 }  // namespace extremal

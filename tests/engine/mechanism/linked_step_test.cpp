@@ -8,6 +8,8 @@
 
 #include "engine/family/table_of.hpp"
 #include "engine/mechanism/mechanism_step.hpp"
+#include "engine/scene/preset.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/engine/mechanism/mechanisms.hpp"
 #include "tests/tools/test.hpp"
 
@@ -116,6 +118,17 @@ private slots:
         QVERIFY(!Mechanism(doublePendulum().system.parts).linked());
         QVERIFY(!Mechanism(sphericalPendulum().system.parts).linked());
         QVERIFY(Mechanism(chain(6).system.parts).linked());
+    }
+    /// Bodies in gimbals, one of which is welded to another: blocks, with a constraint in the border.
+    void bodiesInSpaceHaveBlocks() {
+        for (const char* preset : {"gimbal-gyroscope", "body-chain"}) {
+            const ReadScene scene = readScene(findPreset(preset)->json);
+            const Mechanical of{*scene.resolved->system, scene.resolved->initial};
+            QVERIFY2(Mechanism(of.system.parts).linked(), preset);
+            const Comparison made = compare(of, "midpoint", 0.01, 10);
+            qInfo("%s: apart by %.1e; %s", preset, made.distance, made.about.c_str());
+            QVERIFY(made.distance < 1e-12);
+        }
     }
 
     /// Arithmetic, and not time: each link of a chain takes the same, whatever their number.
