@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/problem.hpp"
 
@@ -41,44 +42,62 @@ MatrixGroup::Entries MatrixGroup::identity() const {
     for (const Factor& f : factors_) Eigen::Map<Square>(g.data() + f.entry, f.n, f.n).setIdentity();
     return g;
 }
-MatrixGroup::Entries MatrixGroup::hat(const Vector& x) const {
+double MatrixGroup::adNorm(Given x) const {
+    double largest = 0;
+    for (const Factor& f : factors_) {
+        const double own = f.constants.adNorm(Factor::Vector(x.segment(f.coordinate, f.d)));
+        largest = std::isnan(own) ? own : std::max(largest, own);
+        if (std::isnan(largest)) break;
+    }
+    return largest;
+}
+MatrixGroup::Entries MatrixGroup::hat(Given x) const {
     Entries X(entries_);
     for (const Factor& f : factors_)
         Eigen::Map<Square>(X.data() + f.entry, f.n, f.n) = f.hat(x.segment(f.coordinate, f.d));
     return X;
 }
-MatrixGroup::Entries MatrixGroup::exponential(const Vector& x) const {
-    Entries g(entries_);
+void MatrixGroup::rate(Given g, Given x, Entries& rate) const {
+    rate.resize(entries_);
     for (const Factor& f : factors_)
-        Eigen::Map<Square>(g.data() + f.entry, f.n, f.n) = f.exponential(x.segment(f.coordinate, f.d));
-    return g;
+        Eigen::Map<Square>(rate.data() + f.entry, f.n, f.n) =
+            part(f, g).lazyProduct(f.hat(x.segment(f.coordinate, f.d)));
 }
-MatrixGroup::Entries MatrixGroup::product(const Entries& g, const Entries& h) const {
-    Entries r(entries_);
+void MatrixGroup::exponential(Given x, Entries& e) const {
+    e.resize(entries_);
     for (const Factor& f : factors_)
-        Eigen::Map<Square>(r.data() + f.entry, f.n, f.n) = part(f, g).lazyProduct(part(f, h));
-    return r;
+        Eigen::Map<Square>(e.data() + f.entry, f.n, f.n) = f.exponential(x.segment(f.coordinate, f.d));
 }
-MatrixGroup::Entries MatrixGroup::inverse(const Entries& g) const {
-    Entries r(entries_);
-    for (const Factor& f : factors_) Eigen::Map<Square>(r.data() + f.entry, f.n, f.n) = inverseOf(part(f, g));
-    return r;
+void MatrixGroup::product(Given g, Given h, Entries& gh) const {
+    gh.resize(entries_);
+    for (const Factor& f : factors_)
+        Eigen::Map<Square>(gh.data() + f.entry, f.n, f.n) = part(f, g).lazyProduct(part(f, h));
+}
+void MatrixGroup::moved(Given g, Given x, Entries& end) const {
+    end.resize(entries_);
+    for (const Factor& f : factors_)
+        Eigen::Map<Square>(end.data() + f.entry, f.n, f.n) =
+            part(f, g).lazyProduct(f.exponential(x.segment(f.coordinate, f.d)));
+}
+void MatrixGroup::inverse(Given g, Entries& back) const {
+    back.resize(entries_);
+    for (const Factor& f : factors_)
+        Eigen::Map<Square>(back.data() + f.entry, f.n, f.n) = inverseOf(part(f, g));
 }
 MatrixGroup::Vector MatrixGroup::coordinatesOf(const Entries& X) const {
     Vector x(dimension_);
     for (const Factor& f : factors_) x.segment(f.coordinate, f.d) = f.coordinatesOf(part(f, X));
     return x;
 }
-MatrixGroup::Vector MatrixGroup::inBody(const Entries& g, const Vector& J) const {
-    Vector m(dimension_);
+void MatrixGroup::inBody(Given g, Given J, Vector& m) const {
+    m.resize(dimension_);
     for (const Factor& f : factors_)
         m.segment(f.coordinate, f.d) = f.adjoint(part(f, g), inverseOf(part(f, g)))
                                            .transpose()
                                            .lazyProduct(J.segment(f.coordinate, f.d));
-    return m;
 }
-MatrixGroup::Vector MatrixGroup::inSpace(const Entries& g, const Vector& m, Vector* scale) const {
-    Vector J(dimension_);
+void MatrixGroup::inSpace(Given g, Given m, Vector& J, Vector* scale) const {
+    J.resize(dimension_);
     if (scale) scale->resize(dimension_);
     for (const Factor& f : factors_) {
         const auto own = m.segment(f.coordinate, f.d);
@@ -87,13 +106,11 @@ MatrixGroup::Vector MatrixGroup::inSpace(const Entries& g, const Vector& m, Vect
         if (scale)
             scale->segment(f.coordinate, f.d) = back.cwiseAbs().transpose().lazyProduct(own.cwiseAbs());
     }
-    return J;
 }
-MatrixGroup::Vector MatrixGroup::logarithm(const Entries& g, const Vector& near) const {
-    Vector xi(dimension_);
+void MatrixGroup::logarithm(Given g, Given near, Vector& xi) const {
+    xi.resize(dimension_);
     for (const Factor& f : factors_)
         xi.segment(f.coordinate, f.d) = f.logarithm(part(f, g), near.segment(f.coordinate, f.d));
-    return xi;
 }
 
 }  // namespace extremal

@@ -19,32 +19,6 @@ namespace {
 
 using namespace laws;
 
-/// Bodies whose third axes attract those of their neighbours; with `hinges`, the kinetic energy couples them
-/// as well, by the product of velocities about those axes in space.
-GroupCase chain(int count, bool hasHinges, const std::string& more = "") {
-    static std::vector<std::string> texts;
-    const std::string n = std::to_string(count), b = std::to_string(count - 1);
-    std::string L = "sum(i, 1.." + n +
-                    ", (b[i]_xi1^2 + 1.5*b[i]_xi2^2 + 2*b[i]_xi3^2)/2 - 0.3*b[i]_g33) + "
-                    "sum(i, 1.." +
-                    b +
-                    ", 0.5*(b[i]_g13*b[i+1]_g13 + b[i]_g23*b[i+1]_g23 + "
-                    "b[i]_g33*b[i+1]_g33))";
-    if (hasHinges)
-        L += " + sum(i, 1.." + b + ", 0.2*(b[i]_g11*b[i+1]_g11 + b[i]_g21*b[i+1]_g21)*b[i]_xi3*b[i+1]_xi2)";
-    texts.push_back(L + more);
-    GroupCase made{"chain",
-                   Value::Object{{"product", Value::Object{{"b[1.." + n + "]", "so3"}}}},
-                   texts.back().c_str(),
-                   {},
-                   {},
-                   2,
-                   10};
-    for (int k = 0; k < count; ++k)
-        for (const double rate : {0.4, 0.1 + 0.4 * std::sin(k), 0.3 * std::cos(k)}) made.xi.push_back(rate);
-    return made;
-}
-
 /// Couplings of every two factors that are 0 in double precision beside everything else.
 std::string allPairs(int count) {
     std::string text;
@@ -84,7 +58,7 @@ private slots:
             QVERIFY(work(16, true) > 10 * work(16, false));
         }
         for (const int count : {4, 32, 64}) {
-            const System system = chain(count, true).system();
+            const System system = chainOfBodies(count, true).system();
             const Couplings& on = *system.part<LieGroup>().mechanics->couplings;
             QCOMPARE(static_cast<int>(on.pairs().size()), 3 * count - 2);
             QCOMPARE(static_cast<int>(on.entries()), 9 * (3 * count - 2));
@@ -94,7 +68,8 @@ private slots:
     /// Without the blocks of bodies that are not neighbours, and with all of them.
     void blocksLeaveNothingOut() {
         const int count = 6;
-        const GroupCase sparse = chain(count, true), full = chain(count, true, allPairs(count));
+        const GroupCase sparse = chainOfBodies(count, true),
+                        full = chainOfBodies(count, true, allPairs(count));
         const System one = sparse.system(), other = full.system();
         QCOMPARE(other.part<LieGroup>().mechanics->couplings->pairs().size(), std::size_t{count * count});
         for (const int s : {1, 2, 3})
@@ -111,7 +86,7 @@ private slots:
 
     void ordersOfLongChains() {
         for (const bool hasHinges : {false, true}) {
-            const GroupCase each = chain(12, hasHinges);
+            const GroupCase each = chainOfBodies(12, hasHinges);
             const System system = each.system();
             const State start = each.start(system);
             const std::vector<double> reference = referenceOf(system, start, each.duration);
@@ -132,7 +107,7 @@ private slots:
     void iterationsDoNotGrow() {
         for (const bool isSymmetric : {false, true}) {
             const auto iterations = [&](int count) {
-                const GroupCase each = chain(count, true);
+                const GroupCase each = chainOfBodies(count, true);
                 const System system = each.system();
                 const auto integrator =
                     makeIntegrator(system, liePair(2, {"gauss", {}, {}}, isSymmetric), {0, 0.1});

@@ -5,6 +5,8 @@
 
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
+#include <cmath>
+#include <list>
 #include <string>
 #include <vector>
 
@@ -126,6 +128,32 @@ inline std::vector<GroupCase> groupCases() {
          {1.5, 0.6, 0.1, 0.4},
          5,
          20}};
+}
+
+/// Bodies whose third axes attract those of their neighbours; with `hinges`, the kinetic energy couples them
+/// as well, by the product of velocities about those axes in space.
+inline GroupCase chainOfBodies(int count, bool hasHinges, const std::string& more = "") {
+    static std::list<std::string> texts;  // where the cases point
+    const std::string n = std::to_string(count), b = std::to_string(count - 1);
+    std::string L = "sum(i, 1.." + n +
+                    ", (b[i]_xi1^2 + 1.5*b[i]_xi2^2 + 2*b[i]_xi3^2)/2 - 0.3*b[i]_g33) + "
+                    "sum(i, 1.." +
+                    b +
+                    ", 0.5*(b[i]_g13*b[i+1]_g13 + b[i]_g23*b[i+1]_g23 + "
+                    "b[i]_g33*b[i+1]_g33))";
+    if (hasHinges)
+        L += " + sum(i, 1.." + b + ", 0.2*(b[i]_g11*b[i+1]_g11 + b[i]_g21*b[i+1]_g21)*b[i]_xi3*b[i+1]_xi2)";
+    texts.push_back(L + more);
+    GroupCase made{"chain",
+                   Value::Object{{"product", Value::Object{{"b[1.." + n + "]", "so3"}}}},
+                   texts.back().c_str(),
+                   {},
+                   {},
+                   2,
+                   10};
+    for (int k = 0; k < count; ++k)
+        for (const double rate : {0.4, 0.1 + 0.4 * std::sin(k), 0.3 * std::cos(k)}) made.xi.push_back(rate);
+    return made;
 }
 
 /// The state after `duration` by another route.

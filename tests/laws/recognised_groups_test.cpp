@@ -367,7 +367,8 @@ private slots:
                                    groupCases()[4],
                                    groupCases()[5],
                                    groupCases()[6],
-                                   groupCases()[9]};
+                                   groupCases()[9],
+                                   chainOfBodies(3, true)};
         for (const GroupCase& each : cases)
             for (const int degree : {1, 2})
                 for (const bool isSymmetric : {false, true}) {

@@ -161,7 +161,7 @@ Mechanics<T> chartMechanics(const typename G::Mechanics& on, const typename G::P
         using Vector = typename G::Vector;
         using Flat = Eigen::Matrix<T, Eigen::Dynamic, 1>;
         using Square = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-        const Model& model = *static_cast<const Model*>(p);
+        const Model model = *static_cast<const Model*>(p);  // with room of its own for results
         const int n = model.group.dimension();
         const Vector xi = Eigen::Map<const Vector>(q, n), v = Eigen::Map<const Vector>(velocity, n);
         typename G::template Chart<2> at = model.group.template chart<2>(xi);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The chart at xi of a group given as data, factor by factor: by the closed forms of rotations
 /// (group/so3.hpp) where a factor is so(3), whatever its basis (group/rotation_algebra.hpp); nothing to do
-/// where it is abelian; else by sweeps of brackets.
-/// K as in so3::Exponential.
+/// where it is abelian; else by sweeps of brackets. K as in so3::Exponential. A chart has room of its own and
+/// is placed at one xi after another, so that nothing is allocated where it is placed.
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -121,11 +120,18 @@ public:
     using Vector = GroupFactor::Vector;
     using Matrix = GroupFactor::Matrix;
 
-    FactorChart(const GroupFactor& factor, const Vector& xi) : factor_(&factor) {
-        if (factor.rotations)
-            turn_.emplace(*factor.rotations, xi);
-        else if (!factor.isAbelian)
-            series_ = std::make_unique<SeriesChart>(factor, xi);
+    /// At xi = 0.
+    explicit FactorChart(const GroupFactor& factor) : factor_(&factor) {
+        if (!factor.rotations && !factor.isAbelian)
+            series_.emplace_back(factor);
+        else
+            place(Vector::Zero(factor.d));
+    }
+    void place(const Vector& xi) {
+        if (!series_.empty())
+            series_.front().place(xi);
+        else if (factor_->rotations)
+            turn_.emplace(*factor_->rotations, xi);
         else
             flat_.emplace(xi);
     }
@@ -160,15 +166,17 @@ public:
         return of([&](const auto& c) -> Matrix { return c.derivativeOfRightTransposed(m); });
     }
     /// eta = dexp(xi) v, kept for what follows.
-    Vector sweep(const Vector& v) { return turn_ ? turn_->sweep(v) : series_ ? series_->sweep(v) : v; }
+    Vector sweep(const Vector& v) {
+        return turn_ ? turn_->sweep(v) : flat_ ? flat_->sweep(v) : series_.front().sweep(v);
+    }
     /// (D_xi eta)^T m and dexp(xi)^T m, of the curve of the last sweep.
     void pull(const Vector& m, Vector& forXi, Vector& forV) {
         if (turn_)
             turn_->pull(m, forXi, forV);
-        else if (series_)
-            series_->pull(m, forXi, forV);
-        else
+        else if (flat_)
             flat_->pull(m, forXi, forV);
+        else
+            series_.front().pull(m, forXi, forV);
     }
     /// Of the curve of the last sweep and the momentum of the last pull.
     ChartDerivatives derivatives() const {
@@ -178,51 +186,64 @@ public:
 private:
     template <class F>
     auto of(const F& f) const {
-        return turn_ ? f(*turn_) : series_ ? f(*series_) : f(*flat_);
+        return turn_ ? f(*turn_) : flat_ ? f(*flat_) : f(series_.front());
     }
     const GroupFactor* factor_;
     std::optional<TurnChart<K>> turn_;
-    std::unique_ptr<SeriesChart> series_;
     std::optional<FlatChart> flat_;
+    std::vector<SeriesChart> series_;  ///< one or none: it is large
 };
 
-/// That of the product: functions of ad, which is block diagonal.
+/// That of the product: functions of ad, which is block diagonal. A result is valid until the same function
+/// is called again.
 template <int K>
 class DataChart {
 public:
     using Vector = MatrixGroup::Vector;
     using Part = GroupFactor::Vector;
+    using Given = MatrixGroup::Given;
 
-    DataChart(const MatrixGroup& group, const Vector& xi) : xi_(xi) {
+    /// At xi = 0; `group` outlives the chart.
+    explicit DataChart(const MatrixGroup& group) : xi_(Vector::Zero(group.dimension())) {
         parts_.reserve(group.factors().size());
-        for (const GroupFactor& f : group.factors())
-            parts_.emplace_back(f, Part(xi.segment(f.coordinate, f.d)));
+        for (const GroupFactor& f : group.factors()) parts_.emplace_back(f);
+        for (Vector* const each : {&back_, &momentum_, &momentumBack_, &eta_, &pulled_, &rightPulled_})
+            *each = xi_;
+    }
+    void place(Given xi) {
+        xi_ = xi;
+        for (FactorChart<K>& c : parts_) c.place(segment(xi_, c));
     }
     const Vector& xi() const { return xi_; }
     const FactorChart<K>& part(int p) const { return parts_[static_cast<std::size_t>(p)]; }
 
-    Vector rotateBack(const Vector& v) const {
-        return byPart(v, [](const auto& c, const Part& y) { return c.rotateBack(y); });
+    template <class V>
+    const Vector& rotateBack(const V& v) {
+        return byPart(v, back_, [](const auto& c, const Part& y) { return c.rotateBack(y); });
     }
-    Vector rotateMomentum(const Vector& m) const {
-        return byPart(m, [](const auto& c, const Part& y) { return c.rotateMomentum(y); });
+    template <class V>
+    const Vector& rotateMomentum(const V& m) {
+        return byPart(m, momentum_, [](const auto& c, const Part& y) { return c.rotateMomentum(y); });
     }
-    Vector rotateMomentumBack(const Vector& m) const {
-        return byPart(m, [](const auto& c, const Part& y) { return c.rotateMomentumBack(y); });
+    template <class V>
+    const Vector& rotateMomentumBack(const V& m) {
+        return byPart(m, momentumBack_, [](const auto& c, const Part& y) { return c.rotateMomentumBack(y); });
     }
-    Vector dexp(const Vector& v) const {
-        return byPart(v, [](const auto& c, const Part& y) { return c.dexp(y); });
+    template <class V>
+    const Vector& dexp(const V& v) {
+        return byPart(v, eta_, [](const auto& c, const Part& y) { return c.dexp(y); });
     }
-    Vector dexpTransposed(const Vector& m) const {
-        return byPart(m, [](const auto& c, const Part& y) { return c.dexpTransposed(y); });
+    template <class V>
+    const Vector& dexpTransposed(const V& m) {
+        return byPart(m, pulled_, [](const auto& c, const Part& y) { return c.dexpTransposed(y); });
     }
-    Vector dexpRightTransposed(const Vector& m) const {
-        return byPart(m, [](const auto& c, const Part& y) { return c.dexpRightTransposed(y); });
+    template <class V>
+    const Vector& dexpRightTransposed(const V& m) {
+        return byPart(m, rightPulled_, [](const auto& c, const Part& y) { return c.dexpRightTransposed(y); });
     }
-    Vector sweep(const Vector& v) {
-        Vector eta(v.size());
-        for (FactorChart<K>& c : parts_) segment(eta, c) = c.sweep(segment(v, c));
-        return eta;
+    const Vector& sweep(Given v) {
+        for (FactorChart<K>& c : parts_) segment(eta_, c) = c.sweep(segment(v, c));
+        return eta_;
     }
     void pull(const Vector& m, Vector& forXi, Vector& forV) {
         forXi.resize(m.size());
@@ -237,17 +258,16 @@ public:
 
 private:
     template <class V>
-    static auto segment(V& of, const FactorChart<K>& c) {
+    static auto segment(V&& of, const FactorChart<K>& c) {
         return of.segment(c.factor().coordinate, c.factor().d);
     }
-    template <class F>
-    Vector byPart(const Vector& v, const F& f) const {
-        Vector r(v.size());
-        for (const FactorChart<K>& c : parts_) segment(r, c) = f(c, Part(segment(v, c)));
-        return r;
+    template <class V, class F>
+    const Vector& byPart(const V& v, Vector& result, const F& f) {
+        for (const FactorChart<K>& c : parts_) segment(result, c) = f(c, Part(segment(v, c)));
+        return result;
     }
 
-    Vector xi_;
+    Vector xi_, back_, momentum_, momentumBack_, eta_, pulled_, rightPulled_;
     std::vector<FactorChart<K>> parts_;
 };
 

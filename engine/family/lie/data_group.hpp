@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A group given by its basis (group/matrix_group.hpp), as LieStep sees it: its chart (data_chart.hpp), and
-/// poses of the entries of g with the momentum J in space.
+/// poses of the entries of g with the momentum J in space. What does not fit on the stack, because a product
+/// has as many factors as it likes, is room of this object, which belongs to one integrator.
 ///
 /// Where a force has taken the impulse W (a momentum at the base point) the momenta at the ends satisfy
 /// J_end = J_base - Ad_{g_base^-1}^T W, and in the body mu = Ad_g^T J.
@@ -37,6 +38,7 @@ public:
     using Vector = MatrixGroup::Vector;
     using Matrix = MatrixGroup::Matrix;
     using Element = MatrixGroup::Entries;
+    using Given = MatrixGroup::Given;
     template <int K>
     using Chart = DataChart<K>;
 
@@ -50,19 +52,23 @@ public:
     int dimension() const { return group_->dimension(); }
     const MatrixGroup& group() const { return *group_; }
     template <int K>
-    Chart<K> chart(const Vector& xi) const {
-        return Chart<K>(*group_, xi);
+    Chart<K> chart(Given xi) const {
+        Chart<K> made(*group_);
+        made.place(xi);
+        return made;
     }
 
-    GroupPose read(const double* x) const {
+    const GroupPose& read(const double* x) const {
+        GroupPose& pose = room_.pose;
+        pose.g.resize(group_->entries());
         if (isOnSpheres()) {
-            GroupPose pose{Element(group_->entries()),
-                           Eigen::Map<const Vector>(x + dimension(), dimension())};
             for (int k = 0; k < dimension(); k += 3) spheres::frameAt(x + k, pose.g.data() + 3 * k);
-            return pose;
+            pose.J = Eigen::Map<const Vector>(x + dimension(), dimension());
+        } else {
+            pose.g = Eigen::Map<const Element>(x, group_->entries());
+            pose.J = Eigen::Map<const Vector>(x + group_->entries() + dimension(), dimension());
         }
-        return {Eigen::Map<const Element>(x, group_->entries()),
-                Eigen::Map<const Vector>(x + group_->entries() + dimension(), dimension())};
+        return pose;
     }
     void write(const GroupPose& p, double* x) const {
         if (isOnSpheres()) {
@@ -74,13 +80,17 @@ public:
         Eigen::Map<Vector>(x + group_->entries(), dimension()) = bodyMomentum(p.g, p);
         Eigen::Map<Vector>(x + group_->entries() + dimension(), dimension()) = p.J;
     }
-    static Element element(const GroupPose& p) { return p.g; }
+    static const Element& element(const GroupPose& p) { return p.g; }
     template <int K>
-    Element times(const Element& g, const Chart<K>& at) const {
-        return group_->product(g, group_->exponential(at.xi()));
+    const Element& times(const Element& g, const Chart<K>& at) const {
+        group_->moved(g, at.xi(), room_.element);
+        return room_.element;
     }
     /// mu = Ad_g^T J.
-    Vector bodyMomentum(const Element& g, const GroupPose& p) const { return group_->inBody(g, p.J); }
+    const Vector& bodyMomentum(const Element& g, const GroupPose& p) const {
+        group_->inBody(g, p.J, room_.momentum);
+        return room_.momentum;
+    }
     Vector precession(const Vector& m, const Vector& u) const { return group_->coadjoint(u, m); }
 
     static Vector corrected(const Vector& xi, const Vector& change) { return xi + change; }
@@ -91,31 +101,32 @@ public:
         if (node % often == often - 1) invariants_->cure(p.g);
     }
     /// The series have no digits left.
-    bool isBeyond(const Vector& xi) const { return !(group_->adNorm(xi) <= 5); }
+    bool isBeyond(Given xi) const { return !(group_->adNorm(xi) <= 5); }
     Vector coordinates(const GroupPose& base, const GroupPose& place, const Vector& near) const {
         return group_->logarithm(group_->product(group_->inverse(base.g), place.g), near);
     }
 
-    /// Momenta in the frames of spheres, as they are in space.
-    Vector framesTimes(const Element& g, const Vector& m) const {
-        Vector r(dimension());
-        for (int k = 0; k < dimension(); k += 3) r.segment<3>(k) = spheres::frameOf(g, k) * m.segment<3>(k);
-        return r;
+    /// Adds `weight` times the momenta m, in the frames of spheres, to momenta in space.
+    void addInSpace(const Element& g, const Vector& m, double weight, Vector& to) const {
+        for (int k = 0; k < dimension(); k += 3)
+            to.segment<3>(k) += weight * (spheres::frameOf(g, k) * m.segment<3>(k));
     }
     /// The xi without isotropy whose rotation carries e_3 where g carries it, on spheres.
-    Vector horizontal(const Element& g) const {
-        Vector xi = Vector::Zero(dimension());
+    template <class V>
+    void horizontal(const Element& g, V&& xi) const {
+        xi.setZero();
         for (int k = 0; k < dimension(); k += 3) {
             const double x = g(3 * k + 2), y = g(3 * k + 5), z = g(3 * k + 8), sine = std::hypot(x, y);
             const double ratio = sine > 0 ? std::atan2(sine, z) / sine : 1;
             xi(k) = -ratio * y;
             xi(k + 1) = ratio * x;
         }
-        return xi;
     }
 
-    GroupPose place(const GroupPose& p, const Element& g, const Vector& xi) const {
-        return {group_->product(g, group_->exponential(xi)), p.J};
+    const GroupPose& place(const GroupPose& p, const Element& g, Given xi) const {
+        group_->moved(g, xi, room_.pose.g);
+        room_.pose.J = p.J;
+        return room_.pose;
     }
     void carry(const GroupPose& base, const Element& g, const Vector& W, GroupPose& end) const {
         end.J = base.J - inSpace(g, W);
@@ -144,12 +155,23 @@ private:
         if (isSmall) spheres::removeAlongPoints(p.g, p.J);
     }
     /// Ad_{g^-1}^T W.
-    Vector inSpace(const Element& g, const Vector& W) const {
-        return W.isZero(0) ? Vector::Zero(dimension()) : group_->inSpace(g, W);
+    const Vector& inSpace(const Element& g, const Vector& W) const {
+        if (W.isZero(0))
+            room_.momentum = W;
+        else
+            group_->inSpace(g, W, room_.momentum);
+        return room_.momentum;
     }
     std::shared_ptr<const MatrixGroup> group_;
     std::shared_ptr<const GroupInvariants> invariants_;
     std::vector<int> isotropy_;
+    /// Of results: each is valid until the same function is called again.
+    struct Room {
+        Element element;
+        Vector momentum;
+        GroupPose pose;
+    };
+    mutable Room room_;
 };
 
 }  // namespace extremal

@@ -23,39 +23,39 @@ namespace extremal {
 template <>
 struct ChartLagrangian<double, DataGroup> {
     using Vector = DataGroup::Vector;
+    using Given = MatrixGroup::Given;
     using PartMatrix = GroupFactor::Matrix;
     static constexpr bool isMixed = true;
     static constexpr bool hasSpaceForm = false;
 
-    explicit ChartLagrangian(const GroupMechanics& mechanics) : mechanics_(mechanics) {}
+    explicit ChartLagrangian(const GroupMechanics& mechanics) : mechanics_(mechanics), node_(mechanics) {
+        m_ = f_ = forXi_ = forV_ = Vector::Zero(mechanics.dimension());
+    }
     bool isFree() const { return mechanics_.isInvariant; }
     const Couplings& couplings() const { return *mechanics_.couplings; }
 
     template <int K>
-    void gradient(DataChart<K>& at, const Vector& v, Vector& forXi, Vector& forV) const {
-        const Vector eta = at.sweep(v);
-        Vector m(eta.size());
+    void gradient(DataChart<K>& at, Given v, Vector& forXi, Vector& forV) const {
+        const Vector& eta = at.sweep(v);
         double value = 0;
-        mechanics_.gradient(mechanics_.model.get(), nullptr, eta.data(), &value, m.data(), nullptr);
-        at.pull(m, forXi, forV);
+        mechanics_.gradient(mechanics_.model.get(), nullptr, eta.data(), &value, m_.data(), nullptr);
+        at.pull(m_, forXi, forV);
     }
     template <int K>
-    Vector gradient(const MatrixGroup::Entries& g, DataChart<K>& at, const Vector& v, Vector& forXi,
-                    Vector& forV) const {
-        const Vector eta = at.sweep(v);
-        Vector m(eta.size()), f(eta.size());
+    const Vector& gradient(const MatrixGroup::Entries& g, DataChart<K>& at, Given v, Vector& forXi,
+                           Vector& forV) const {
+        const Vector& eta = at.sweep(v);
         double value = 0;
-        mechanics_.gradient(mechanics_.model.get(), g.data(), eta.data(), &value, m.data(), f.data());
-        at.pull(m, forXi, forV);
-        forXi += at.dexpTransposed(f);
-        return f;
+        mechanics_.gradient(mechanics_.model.get(), g.data(), eta.data(), &value, m_.data(), f_.data());
+        at.pull(m_, forXi, forV);
+        forXi += at.dexpTransposed(f_);
+        return f_;
     }
-    Vector force(const MatrixGroup::Entries& g, const DataChart<0>& at, const Vector& v) const {
-        const Vector eta = at.dexp(v);
-        Vector m(eta.size()), f(eta.size());
+    const Vector& force(const MatrixGroup::Entries& g, DataChart<0>& at, Given v) const {
+        const Vector& eta = at.dexp(v);
         double value = 0;
-        mechanics_.gradient(mechanics_.model.get(), g.data(), eta.data(), &value, m.data(), f.data());
-        return f;
+        mechanics_.gradient(mechanics_.model.get(), g.data(), eta.data(), &value, m_.data(), f_.data());
+        return f_;
     }
 
     /// L and its derivatives at a node, and those of the chart there.
@@ -65,27 +65,30 @@ struct ChartLagrangian<double, DataGroup> {
         std::vector<double> M, N, S;  ///< in the layout of the couplings; N and S empty where L is invariant
         std::vector<ChartDerivatives> charts;  ///< of each factor
 
+        Node() = default;
+        explicit Node(const GroupMechanics& on) : couplings(on.couplings) {
+            const auto d = static_cast<Eigen::Index>(couplings->dimension());
+            const std::size_t forces = on.isInvariant ? 0 : couplings->entries();
+            m = f = Vector::Zero(d);
+            M.resize(couplings->entries());
+            N.resize(forces);
+            S.resize(forces);
+            charts.resize(static_cast<std::size_t>(couplings->parts()));
+        }
         const ChartDerivatives& chart(int p) const { return charts[static_cast<std::size_t>(p)]; }
         bool isFree() const { return S.empty(); }
     };
-    /// g: null where L is invariant.
-    Node node(const double* g, DataChart<2>& at, const Vector& v) const {
-        const Vector eta = at.sweep(v);
-        const std::size_t entries = mechanics_.couplings->entries();
-        Node n{mechanics_.couplings, Vector(eta.size()), {}, std::vector<double>(entries), {}, {}, {}};
-        if (g) {
-            n.f.resize(eta.size());
-            n.N.resize(entries);
-            n.S.resize(entries);
-        }
+    /// g: null where L is invariant. Valid until the next call.
+    const Node& node(const double* g, DataChart<2>& at, Given v) const {
+        const Vector& eta = at.sweep(v);
+        Node& n = node_;
         double L = 0;
         mechanics_.jet(mechanics_.model.get(), g, eta.data(), &L, n.m.data(), g ? n.f.data() : nullptr,
                        n.M.data(), g ? n.N.data() : nullptr, g ? n.S.data() : nullptr);
         keepSpread(n);
-        Vector forXi, forV;
-        at.pull(n.m, forXi, forV);
-        n.charts.reserve(static_cast<std::size_t>(n.couplings->parts()));
-        for (int p = 0; p < n.couplings->parts(); ++p) n.charts.push_back(at.part(p).derivatives());
+        at.pull(n.m, forXi_, forV_);
+        for (int p = 0; p < n.couplings->parts(); ++p)
+            n.charts[static_cast<std::size_t>(p)] = at.part(p).derivatives();
         return n;
     }
     /// The second derivatives by (xi, v) of two factors.
@@ -176,7 +179,7 @@ struct ChartLagrangian<double, DataGroup> {
         Coupled S() const { return {node.couplings.get(), &node.S}; }
         Coupled N() const { return {node.couplings.get(), &node.N}; }
     };
-    ForceSlope forceSlope(const MatrixGroup::Entries& g, DataChart<2>& at, const Vector& v) const {
+    ForceSlope forceSlope(const MatrixGroup::Entries& g, DataChart<2>& at, Given v) const {
         return {node(g.data(), at, v)};
     }
 
@@ -184,8 +187,8 @@ struct ChartLagrangian<double, DataGroup> {
     struct Whole {
         Eigen::MatrixXd xiXi, vXi, vv;
     };
-    Whole whole(const MatrixGroup::Entries* g, DataChart<2>& at, const Vector& v) const {
-        const Node n = node(g ? g->data() : nullptr, at, v);
+    Whole whole(const MatrixGroup::Entries* g, DataChart<2>& at, Given v) const {
+        const Node& n = node(g ? g->data() : nullptr, at, v);
         const Couplings& on = *n.couplings;
         Whole w;
         for (Eigen::MatrixXd* const each : {&w.xiXi, &w.vXi, &w.vv})
@@ -208,9 +211,8 @@ struct ChartLagrangian<double, DataGroup> {
     }
     /// L at g with eta, and its gradient by (xi, v).
     double value(const MatrixGroup::Entries& g, const Vector& eta) const {
-        Vector m(eta.size());
         double result = 0;
-        mechanics_.gradient(mechanics_.model.get(), g.data(), eta.data(), &result, m.data(), nullptr);
+        mechanics_.gradient(mechanics_.model.get(), g.data(), eta.data(), &result, m_.data(), nullptr);
         return result;
     }
 
@@ -229,6 +231,8 @@ private:
     }
 
     GroupMechanics mechanics_;
+    mutable Vector m_, f_, forXi_, forV_;  ///< room for results
+    mutable Node node_;
     mutable double spread_ = 1;  ///< of the inertias, at the last Jacobian
 };
 
@@ -238,6 +242,7 @@ template <>
 class StepGuess<double, DataGroup> {
 public:
     using Vector = DataGroup::Vector;
+    using Given = MatrixGroup::Given;
 
     static Vector coordinates(const DataGroup& group, const GroupPose& base, const GroupPose& place,
                               const Vector& near) {
@@ -251,7 +256,14 @@ public:
     }
 
     StepGuess(const DataGroup& group, const GroupMechanics& mechanics, int points)
-        : group_(group), mechanics_(mechanics), xi_(static_cast<std::size_t>(points + 1)) {}
+        : group_(group),
+          mechanics_(mechanics),
+          xi_(static_cast<std::size_t>(points + 1), Vector::Zero(group.dimension())) {
+        const int d = group.dimension();
+        for (Vector* const each : {&eta_, &m_, &f_}) *each = Vector::Zero(d);
+        for (Move* const each : {&at_, &along_, &slope_, &sum_}) each->xi = each->mu = Vector::Zero(d);
+        guessed_ = Eigen::MatrixXd::Zero(d, points);
+    }
 
     /// Coordinates, seen from the base, of the curve at the times from the known end on.
     template <class Columns>
@@ -273,68 +285,98 @@ private:
         const auto count = static_cast<int>(times.size());
         start_ = known.g;
         isFound_ = true;
-        Move at{Vector::Zero(mu.size()), mu};
-        xi_[0] = at.xi;
+        at_.xi.setZero();
+        at_.mu = mu;
+        xi_[0] = at_.xi;
         for (int k = 0; k < count; ++k) {
             const auto i = static_cast<std::size_t>(k);
-            at = after(at, (times[i] - (k > 0 ? times[i - 1] : 0)) * step);
-            xi_[i + 1] = at.xi;
+            advance((times[i] - (k > 0 ? times[i - 1] : 0)) * step);
+            xi_[i + 1] = at_.xi;
         }
         const MatrixGroup& g = group_.group();
+        if (isAdjoint) {
+            along_.xi = -xi_.back();
+            g.exponential(along_.xi, back_);
+        }
         for (int k = 0; k < count; ++k) {
             const auto i = static_cast<std::size_t>(k + 1);
             if (!isAdjoint) {
                 points.col(k) = xi_[i];
                 continue;
             }
-            const Vector &last = xi_.back(), &other = xi_[static_cast<std::size_t>(count) - i];
-            points.col(k) =
-                g.logarithm(g.product(g.exponential(-last), g.exponential(other)), Vector(other - last));
+            const Vector& other = xi_[static_cast<std::size_t>(count) - i];
+            g.moved(back_, other, g_);
+            along_.xi = other - xi_.back();
+            g.logarithm(g_, along_.xi, along_.mu);
+            points.col(k) = along_.mu;
         }
     }
     /// The guess of the group, seen on the spheres: the frame at its end has turned about the point.
     template <class Columns>
     void putOnSpheres(bool isAdjoint, Eigen::Index count, Columns& points) {
         const MatrixGroup& group = group_.group();
+        const auto turned = [&](Eigen::Index k, auto&& to) {
+            group.exponential(guessed_.col(k), g_);
+            group_.horizontal(g_, to);
+        };
+        guessed_ = points;
         if (!isAdjoint) {
-            for (Eigen::Index k = 0; k < count; ++k)
-                points.col(k) = group_.horizontal(group.exponential(points.col(k)));
+            for (Eigen::Index k = 0; k < count; ++k) turned(k, points.col(k));
             return;
         }
         // The base is where the curve ends, and its frame is that of the known end carried there.
-        guessed_ = points;
-        const Vector back = -group_.horizontal(group.exponential(guessed_.col(count - 1)));
-        for (Eigen::Index k = 0; k + 1 < count; ++k)
-            points.col(k) = group_.horizontal(
-                group.product(group.exponential(back), group.exponential(guessed_.col(count - 2 - k))));
-        points.col(count - 1) = back;
+        turned(count - 1, along_.xi);
+        along_.xi = -along_.xi;
+        group.exponential(along_.xi, back_);
+        for (Eigen::Index k = 0; k + 1 < count; ++k) {
+            group.moved(back_, guessed_.col(count - 2 - k), g_);
+            group_.horizontal(g_, points.col(k));
+        }
+        points.col(count - 1) = along_.xi;
     }
-    Move rate(const Move& at) {
+    /// slope_ at a place.
+    void findRate(const Move& at) {
         const MatrixGroup& group = group_.group();
-        Vector eta(at.mu.size()), m(at.mu.size()), f = Vector::Zero(at.mu.size());
-        MatrixGroup::Entries g;
-        if (!mechanics_.isInvariant) g = group.product(start_, group.exponential(at.xi));
-        const bool isFound = mechanics_.velocity(mechanics_.model.get(), g.data(), at.mu.data(), eta.data());
+        const bool isFree = mechanics_.isInvariant;
+        if (!isFree) group.moved(start_, at.xi, g_);
+        const bool isFound =
+            mechanics_.velocity(mechanics_.model.get(), g_.data(), at.mu.data(), eta_.data());
         double value = 0;
-        if (isFound && !mechanics_.isInvariant)
-            mechanics_.gradient(mechanics_.model.get(), g.data(), eta.data(), &value, m.data(), f.data());
-        if (at.xi.isZero(0)) isFound_ = isFound_ && isFound && f.allFinite();
-        return {series::inverseOfDexp(group.constants(), at.xi, eta), group.coadjoint(eta, at.mu) + f};
+        if (isFound && !isFree)
+            mechanics_.gradient(mechanics_.model.get(), g_.data(), eta_.data(), &value, m_.data(), f_.data());
+        if (at.xi.isZero(0)) isFound_ = isFound_ && isFound && f_.allFinite();
+        for (const GroupFactor& factor : group.factors()) {
+            const auto own = [&](auto& of) { return of.segment(factor.coordinate, factor.d); };
+            const GroupFactor::Vector xi = own(at.xi), mu = own(at.mu), eta = own(eta_);
+            own(slope_.xi) = series::inverseOfDexp(factor.constants, xi, eta);
+            own(slope_.mu) = factor.constants.coadjoint(eta, mu);
+        }
+        slope_.mu += f_;
     }
-    Move after(const Move& at, double t) {
-        const auto along = [](const Move& from, double s, const Move& slope) -> Move {
-            return {from.xi + s * slope.xi, from.mu + s * slope.mu};
-        };
-        const Move k1 = rate(at), k2 = rate(along(at, t / 2, k1)), k3 = rate(along(at, t / 2, k2)),
-                   k4 = rate(along(at, t, k3));
-        return along(along(along(along(at, t / 6, k1), t / 3, k2), t / 3, k3), t / 6, k4);
+    /// at_ after the time t.
+    void advance(double t) {
+        sum_ = at_;
+        along_ = at_;
+        for (int stage = 0; stage < 4; ++stage) {
+            findRate(along_);
+            const double weight = stage == 0 || stage == 3 ? t / 6 : t / 3;
+            sum_.xi += weight * slope_.xi;
+            sum_.mu += weight * slope_.mu;
+            if (stage == 3) break;
+            const double part = stage == 2 ? t : t / 2;
+            along_.xi = at_.xi + part * slope_.xi;
+            along_.mu = at_.mu + part * slope_.mu;
+        }
+        at_ = sum_;
     }
 
     DataGroup group_;
     GroupMechanics mechanics_;
-    MatrixGroup::Entries start_;
+    MatrixGroup::Entries start_, g_, back_;
     std::vector<Vector> xi_;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic> guessed_;
+    Vector eta_, m_, f_;  ///< f_: 0 where L is invariant
+    Move at_, along_, slope_, sum_;
+    Eigen::MatrixXd guessed_;
     bool isFound_ = true;
 };
 

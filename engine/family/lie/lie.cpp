@@ -28,7 +28,7 @@ template <class G>
 class StatePoses {
 public:
     explicit StatePoses(const typename G::Mechanics& mechanics) : group_(mechanics) {}
-    typename G::Pose read(const std::vector<double>& x) const { return group_.read(x.data()); }
+    decltype(auto) read(const std::vector<double>& x) const { return group_.read(x.data()); }
     void put(const typename G::Pose& p, double* x) const { group_.write(p, x); }
     void write(const typename G::Pose& p, std::vector<double>& x) { group_.write(p, x.data()); }
     void forget() {}
@@ -77,13 +77,12 @@ public:
         StepReport report;
         report.step = h_;
         const G& group = step_.group();
-        typename G::Pose pose = poses_.read(state.x);
-        if (isSymmetrised_) report.outcome = adjoint_.advance(pose, report, stop());
-        if (report.outcome == Outcome::converged) report.outcome = step_.advance(pose, report, stop());
+        pose_ = poses_.read(state.x);
+        if (isSymmetrised_) report.outcome = adjoint_.advance(pose_, report, stop());
+        if (report.outcome == Outcome::converged) report.outcome = step_.advance(pose_, report, stop());
         if (report.outcome != Outcome::converged) return report;
-        group.settle(pose, state.node);
-        if constexpr (hasSpheres) end_ = pose;
-        poses_.write(pose, state.x);
+        group.settle(pose_, state.node);
+        poses_.write(pose_, state.x);
         state.t = until;
         ++state.node;
         return report;
@@ -104,7 +103,7 @@ public:
                 const int spheres = step_.group().dimension() / 3;
                 std::vector<double> wide = spheres::variationsOfFrames(W.data(), spheres, columns);
                 if (!applyInGroup(wide.data(), columns)) return false;
-                spheres::variationsOfPoints(end_, wide, spheres, columns, W.data());
+                spheres::variationsOfPoints(pose_, wide, spheres, columns, W.data());
                 return true;
             }
         poses_.varyBody(W.data(), columns);
@@ -140,7 +139,7 @@ private:
     double h_;
     bool isReduced_, isSymmetrised_;
     LieStep<double, G> adjoint_, step_;
-    typename G::Pose end_;  ///< of the last step, on spheres
+    typename G::Pose pose_;  ///< at the end of the last step
 };
 
 }  // namespace

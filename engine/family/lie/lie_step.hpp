@@ -30,7 +30,9 @@
 #include <Eigen/Core>
 
 #include <stop_token>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/action/chain_rule.hpp"
@@ -99,6 +101,17 @@ private:
     /// The entries of function a in the flat vector, and block (a, c) of the Jacobian.
     auto part(int a) { return flat_.template segment<n>(d() * a, d()); }
     int nodes() const { return table_.nodes(); }
+    /// The chart at xi: of a product the one of charts_, which has its room already.
+    template <int K, class V>
+    decltype(auto) chart(const V& xi) {
+        if constexpr (isCoupled) {
+            typename G::template Chart<K>& at = std::get<K>(charts_);
+            at.place(xi);
+            return (at);
+        } else {
+            return group_.template chart<K>(xi);
+        }
+    }
     void placeNodes();
     void placeFoot();
     bool predict();
@@ -110,9 +123,8 @@ private:
     void fillJacobian() requires(isCoupled);
     void addForceAt(int i, const typename G::template Chart<2>& at,
                     const typename Lagrangian::ForceSlope& F) requires(!isCoupled);
-    template <class Node>
-    void addForceAt(int i, const typename G::template Chart<2>& at, const Node& node,
-                    const Couplings::Pair& pair);
+    template <class Node, class Chart, class End>
+    void addForceAt(int i, const Chart& at, const Node& node, const End& end, const Couplings::Pair& pair);
     T correction();
     void correct();
     void updateImpulse();
@@ -142,6 +154,7 @@ private:
     typename G::Element baseElement_;
     Vector mu_;  ///< momentum at the start, in the body
     Vector W_;
+    Vector forXi_, forV_, end_;  ///< of a node; a momentum or coordinates at the end
     /// W in space, on spheres: summed there node by node, a component that no force has is 0 to the last bit.
     Vector inSpace_;
     Columns Y_, xi_, v_, force_, R_;
@@ -149,6 +162,17 @@ private:
     Columns points_;
     std::conditional_t<isCoupled, BlockLu, SmallLu<T>> lu_;  ///< the Jacobian, then its factors
     bool isJoined_ = false;                                  ///< in one block
+    struct None {};
+    template <class H>
+    static auto chartsOf(const G& group) {
+        if constexpr (isCoupled)
+            return std::tuple(typename H::template Chart<0>(group.group()),
+                              typename H::template Chart<1>(group.group()),
+                              typename H::template Chart<2>(group.group()));
+        else
+            return None();
+    }
+    decltype(chartsOf<G>(std::declval<const G&>())) charts_;  ///< by derivatives, of a product
     Flat flat_;
     std::vector<T> times_;  ///< of the m points
     StepReport* report_ = nullptr;

@@ -25,11 +25,13 @@ LieStep<T, G>::LieStep(const Mechanics& mechanics, Table<T> table, const T& step
       policy_(policy),
       tolerance_(toleranceOf<T>(policy)),
       lagrangian_(mechanics),
-      guess_(group_, mechanics, m()) {
+      guess_(group_, mechanics, m()),
+      charts_(chartsOf<G>(group_)) {
     isUnreduced_ = !lagrangian_.isFree() || (Lagrangian::hasSpaceForm && !isReduced);
     for (Columns* c : {&Y_, &R_, &points_}) *c = Columns::Zero(d(), m());
     for (Columns* c : {&xi_, &v_, &force_}) *c = Columns::Zero(d(), nodes());
-    W_ = mu_ = Vector::Zero(d());
+    W_ = mu_ = forXi_ = forV_ = end_ = Vector::Zero(d());
+    if constexpr (hasIsotropy) inSpace_ = W_;
     const int size = d() * m();
     if constexpr (isCoupled)
         lu_ = blocksOf(lagrangian_.couplings(), m(), false);
@@ -61,7 +63,8 @@ void LieStep<T, G>::placeNodes() {
 template <class T, class G>
 void LieStep<T, G>::placeFoot() {
     if (!isAdjoint_) return;
-    base_ = group_.place(known_, group_.element(known_), -Y_.col(m() - 1));
+    end_ = -Y_.col(m() - 1);
+    base_ = group_.place(known_, group_.element(known_), end_);
     baseElement_ = group_.element(base_);
 }
 
@@ -82,19 +85,18 @@ void LieStep<T, G>::residual() {
     W_.setZero();
     if (isUnreduced_) placeFoot();
     for (int i = 0; i < nodes(); ++i) {
-        typename G::template Chart<1> at = group_.template chart<1>(xi_.col(i));
-        Vector forXi, forV;
+        auto&& at = chart<1>(xi_.col(i));
         if (!isUnreduced_) {
-            lagrangian_.gradient(at, v_.col(i), forXi, forV);
+            lagrangian_.gradient(at, v_.col(i), forXi_, forV_);
         } else {
-            const typename G::Element g = group_.times(baseElement_, at);
-            const Vector f = lagrangian_.gradient(g, at, v_.col(i), forXi, forV);
+            const typename G::Element& g = group_.times(baseElement_, at);
+            const Vector& f = lagrangian_.gradient(g, at, v_.col(i), forXi_, forV_);
             force_.col(i) = at.rotateMomentum(f);
             W_ -= (h_ * table_.weight(i)) * force_.col(i);
         }
-        addGradient(m(), testAt(i), forXi, forV, [&](int a) { return R_.col(a); });
+        addGradient(m(), testAt(i), forXi_, forV_, [&](int a) { return R_.col(a); });
     }
-    const typename G::template Chart<0> end = group_.template chart<0>(Y_.col(m() - 1));
+    auto&& end = chart<0>(Y_.col(m() - 1));
     if (isAdjoint_)
         R_.col(m() - 1) -= end.dexpTransposed(mu_);
     else
@@ -215,18 +217,18 @@ void LieStep<T, G>::correct() {
 template <class T, class G>
 void LieStep<T, G>::updateImpulse() {
     W_.setZero();
-    if constexpr (hasIsotropy) inSpace_ = Vector::Zero(d());
+    if constexpr (hasIsotropy) inSpace_.setZero();
     placeFoot();
     if (lagrangian_.isFree()) return;
     for (int i = 0; i < nodes(); ++i) {
-        const auto at = group_.template chart<0>(xi_.col(i));
-        const typename G::Element g = group_.times(baseElement_, at);
-        const Vector f = lagrangian_.force(g, at, v_.col(i));
+        auto&& at = chart<0>(xi_.col(i));
+        const typename G::Element& g = group_.times(baseElement_, at);
+        const Vector& f = lagrangian_.force(g, at, v_.col(i));
         const T weight = h_ * table_.weight(i);
         force_.col(i) = at.rotateMomentum(f);
         W_ -= weight * force_.col(i);
         if constexpr (hasIsotropy)
-            if (group_.isOnSpheres()) inSpace_ -= weight * group_.framesTimes(g, f);
+            if (group_.isOnSpheres()) group_.addInSpace(g, f, -weight, inSpace_);
     }
     report_->cost.evaluations += nodes();
 }
@@ -271,18 +273,17 @@ Outcome LieStep<T, G>::advance(Pose& pose, StepReport& report, const std::stop_t
     if (!predict()) return guess_.isRateFinite() ? Outcome::diverged : Outcome::notFinite;
     const Outcome solved = iterate(stop);
     if (solved != Outcome::converged) return solved;
-    const Vector xiEnd = Y_.col(m() - 1);
-    if (group_.isBeyond(xiEnd)) return Outcome::diverged;
+    end_ = Y_.col(m() - 1);
+    if (group_.isBeyond(end_)) return Outcome::diverged;
     if (isAdjoint_) {
         group_.fetch(base_, baseElement_, W_, known_);
         pose = base_;
     } else {
-        Pose end = group_.place(base_, baseElement_, xiEnd);
-        group_.carry(base_, baseElement_, W_, end);
-        pose = end;
+        pose = group_.place(base_, baseElement_, end_);
+        group_.carry(base_, baseElement_, W_, pose);
     }
     if constexpr (hasIsotropy)
-        if (group_.isOnSpheres()) pose.J = known_.J + (isAdjoint_ ? inSpace_ : Vector(-inSpace_));
+        if (group_.isOnSpheres()) pose.J = known_.J + T(isAdjoint_ ? 1 : -1) * inSpace_;
     return Outcome::converged;
 }
 

@@ -51,7 +51,7 @@ bool LieStep<T, G>::applyTangent(T* W, int columns) {
     report_ = &unused;
     if (assembleJacobian() != Outcome::converged) return false;
     const Vector xiEnd = Y_.col(m() - 1);
-    const auto end = group_.template chart<0>(xiEnd), opposite = group_.template chart<0>(Vector(-xiEnd));
+    auto end = group_.template chart<0>(xiEnd), opposite = group_.template chart<0>(Vector(-xiEnd));
     for (T* w = W; columns > 0; --columns, w += 2 * d()) {
         Eigen::Map<Vector> zeta(w, d()), dmu(w + d(), d());
         Vector base = isAdjoint_ ? opposite.rotateBack(zeta) : Vector(zeta);
@@ -66,14 +66,14 @@ bool LieStep<T, G>::applyTangent(T* W, int columns) {
             const Vector eta = -opposite.dexp(dxi);
             base += eta;
             dW = vary(base, true);
-            dmu = (end.rotateMomentum(dmu) + group_.precession(end.rotateMomentum(mu_), eta) + dW).eval();
+            const Vector carried = end.rotateMomentum(dmu);
+            dmu = carried + group_.precession(end.rotateMomentum(mu_), eta) + dW;
             zeta = base;
         } else {
             const Vector eta = end.dexp(dxi);
             dW = vary(base, true);
-            dmu =
-                (end.rotateMomentumBack(dmu - dW) + group_.precession(end.rotateMomentumBack(mu_ - W_), eta))
-                    .eval();
+            const Vector carried = end.rotateMomentumBack(dmu - dW);
+            dmu = carried + group_.precession(end.rotateMomentumBack(mu_ - W_), eta);
             zeta = (end.rotateBack(zeta) + eta).eval();
         }
     }

@@ -24,22 +24,18 @@ auto blockIn(BlockLu& lu, const Couplings& on, const Couplings::Pair& pair, int 
                    Eigen::OuterStride<>(static_cast<Eigen::Index>(lu.stride(row))));
 }
 
-/// Adds what the force of one factor at node i does with another, as of one body.
+/// Adds what the force of one factor at node i does with another, as of one body. `end`: the chart at the end
+/// of the step, seen from the base point, or from the end in an adjoint step.
 template <class T, class G>
-template <class Node>
-void LieStep<T, G>::addForceAt(int i, const typename G::template Chart<2>& at, const Node& node,
+template <class Node, class Chart, class End>
+void LieStep<T, G>::addForceAt(int i, const Chart& at, const Node& node, const End& end,
                                const Couplings::Pair& pair) {
     using PartMatrix = GroupFactor::Matrix;
-    using Part = GroupFactor::Vector;
     const Couplings& on = lagrangian_.couplings();
     auto block = blockIn<T>(lu_, on, pair, m());
     const int rows = on.size(pair.p), columns = on.size(pair.q), last = m() - 1;
-    const Part xiEnd =
-        Y_.col(last).segment(on.first(isAdjoint_ ? pair.q : pair.p), isAdjoint_ ? columns : rows);
-    const FactorChart<0> end(at.part(isAdjoint_ ? pair.q : pair.p).factor(),
-                             isAdjoint_ ? Part(-xiEnd) : xiEnd);
     if (isAdjoint_) {
-        PartMatrix moved = end.dexpMatrix();
+        PartMatrix moved = end.part(pair.q).dexpMatrix();
         for (int k = 0; k < columns; ++k) moved.col(k) = (-at.part(pair.q).rotateBack(moved.col(k))).eval();
         const ChartDerivatives& chart = node.chart(pair.p);
         const PartMatrix slope = on.block(node.S.data(), pair).lazyProduct(moved),
@@ -54,7 +50,7 @@ void LieStep<T, G>::addForceAt(int i, const typename G::template Chart<2>& at, c
     auto [byXi, byV] = lagrangian_.forceBy(node, pair);
     for (PartMatrix* const of : {&byXi, &byV})
         for (int k = 0; k < columns; ++k)
-            of->col(k) = end.dexpRightTransposed(at.part(pair.p).rotateMomentum(of->col(k)));
+            of->col(k) = end.part(pair.p).dexpRightTransposed(at.part(pair.p).rotateMomentum(of->col(k)));
     for (int a = 0; a < m(); ++a)
         block.block(last * rows, a * columns, rows, columns) -=
             (table_.weight(i) * h_ * table_.value(i, a)) * byXi +
@@ -66,28 +62,32 @@ void LieStep<T, G>::fillJacobian() requires(isCoupled) {
     lu_.clear();
     const Couplings& on = lagrangian_.couplings();
     const int last = m() - 1;
+    end_ = Y_.col(last);
+    if (isAdjoint_) end_ = -end_;
+    const auto& ofForce = chart<0>(end_);
     for (int i = 0; i < nodes(); ++i) {
-        auto at = group_.template chart<2>(xi_.col(i));
-        typename G::Element g;
-        if (!lagrangian_.isFree()) g = group_.times(baseElement_, at);
-        const auto node = lagrangian_.node(lagrangian_.isFree() ? nullptr : g.data(), at, v_.col(i));
+        auto& at = chart<2>(xi_.col(i));
+        const bool isFree = lagrangian_.isFree();
+        const auto& node =
+            lagrangian_.node(isFree ? nullptr : group_.times(baseElement_, at).data(), at, v_.col(i));
         for (const Couplings::Pair& pair : on.pairs()) {
             const auto L = lagrangian_.second(node, at, pair);
             auto block = blockIn<T>(lu_, on, pair, m());
             const int rows = on.size(pair.p), columns = on.size(pair.q);
             addHessian(m(), m(), testAt(i), trialAt(i), L.xiXi, L.xiV, L.vXi, L.vv,
                        [&](int a, int c) { return block.block(a * rows, c * columns, rows, columns); });
-            if (!lagrangian_.isFree()) addForceAt(i, at, node, pair);
+            if (!isFree) addForceAt(i, at, node, ofForce, pair);
         }
     }
-    const auto end = group_.template chart<1>(Y_.col(last));
-    const Vector momentum = isAdjoint_ ? mu_ : Vector(mu_ - W_);
+    const auto& end = chart<1>(Y_.col(last));
+    end_ = mu_;
+    if (!isAdjoint_) end_ -= W_;
     const std::vector<int>& isotropy = group_.isotropy();
     for (const Couplings::Pair& pair : on.pairs()) {
         auto block = blockIn<T>(lu_, on, pair, m());
         const int size = on.size(pair.p), first = on.first(pair.p);
         if (pair.p == pair.q) {
-            const GroupFactor::Vector own = momentum.segment(first, size);
+            const GroupFactor::Vector own = end_.segment(first, size);
             block.block(last * size, last * size, size, size) -=
                 isAdjoint_ ? end.part(pair.p).derivativeOfTransposed(own)
                            : end.part(pair.p).derivativeOfRightTransposed(own);

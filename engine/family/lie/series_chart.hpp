@@ -21,10 +21,12 @@ public:
     using Vector = GroupFactor::Vector;
     using Matrix = GroupFactor::Matrix;
 
-    SeriesChart(const GroupFactor& group, const Vector& xi)
-        : group_(group.constants),
-          xi_(xi),
-          terms_(series::termsFor(group.constants.adNorm(xi), 0.1 * std::numeric_limits<double>::epsilon())) {
+    /// At xi = 0; `group` outlives the chart.
+    explicit SeriesChart(const GroupFactor& group)
+        : group_(&group.constants), xi_(Vector::Zero(group.d)), terms_(1) {}
+    void place(const Vector& xi) {
+        xi_ = xi;
+        terms_ = series::termsFor(group_->adNorm(xi), 0.1 * std::numeric_limits<double>::epsilon());
     }
 
     Vector rotateBack(const Vector& v) const {
@@ -70,7 +72,7 @@ public:
         sweepBack(m, 1, lambda_);
         forV = lambda_[0];
         forXi = Vector::Zero(d());
-        for (int n = 0; n + 1 < terms_; ++n) forXi += group_.coadjoint(w_[at(n)], lambda_[at(n + 1)]);
+        for (int n = 0; n + 1 < terms_; ++n) forXi += group_->coadjoint(w_[at(n)], lambda_[at(n + 1)]);
     }
     /// Of the curve of the last sweep and the momentum of the last pull.
     ChartDerivatives derivatives() const {
@@ -87,9 +89,9 @@ public:
                 factorial *= n + 1;
                 r.D.col(k) += dw / factorial;
                 if (n + 1 == terms_) break;
-                r.H.col(k) +=
-                    group_.coadjoint(dw, lambda_[at(n + 1)]) + group_.coadjoint(w_[at(n)], slopes[at(n + 1)]);
-                dw = (-group_.bracketOfBasis(k, w_[at(n)]) - bracket(dw)).eval();
+                r.H.col(k) += group_->coadjoint(dw, lambda_[at(n + 1)]) +
+                              group_->coadjoint(w_[at(n)], slopes[at(n + 1)]);
+                dw = (-group_->bracketOfBasis(k, w_[at(n)]) - bracket(dw)).eval();
             }
         }
         return r;
@@ -99,8 +101,8 @@ private:
     using Sweep = std::array<Vector, series::mostTerms>;
     static std::size_t at(int n) { return static_cast<std::size_t>(n); }
     int d() const { return static_cast<int>(xi_.size()); }
-    Vector bracket(const Vector& y) const { return group_.bracket(xi_, y); }
-    Vector coadjoint(const Vector& m) const { return group_.coadjoint(xi_, m); }
+    Vector bracket(const Vector& y) const { return group_->bracket(xi_, y); }
+    Vector coadjoint(const Vector& m) const { return group_->coadjoint(xi_, m); }
     /// The last of the lambda is m / N!.
     Vector lambdaSource() const {
         double factorial = 1;
@@ -122,7 +124,7 @@ private:
         slopes[at(terms_ - 1)] = Vector::Zero(d());
         for (int n = terms_ - 2; n >= 0; --n)
             slopes[at(n)] =
-                -sign * (group_.coadjointOfBasis(k, lambda[at(n + 1)]) + coadjoint(slopes[at(n + 1)]));
+                -sign * (group_->coadjointOfBasis(k, lambda[at(n + 1)]) + coadjoint(slopes[at(n + 1)]));
     }
     Matrix slopesOfPull(const Vector& m, double sign) const {
         Sweep lambda, slopes;
@@ -135,7 +137,7 @@ private:
         return B;
     }
 
-    const StructureConstants& group_;
+    const StructureConstants* group_;
     Vector xi_;
     int terms_;
     Sweep w_, lambda_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/algebra/dense.hpp"
+#include "engine/core/own_buffers.hpp"
 #include "engine/group/so3.hpp"
 #include "engine/model/casimir_measure.hpp"
 #include "engine/model/group/group_flow.hpp"
@@ -62,24 +63,40 @@ Vector velocityAt(const GroupMechanics& on, const Place& at) {
     return eta;
 }
 
+/// Room of one thread for evaluations of a rate.
+struct RateRoom {
+    explicit RateRoom(const GroupMechanics& on)
+        : m(on.dimension()), f(Vector::Zero(on.dimension())), eta(m) {}
+    Vector m, f, eta, J;
+    Entries g;
+};
+
 /// g' = g hat eta, mu' = ad_eta^T mu + f, J' = Ad_{g^-1}^T f.
-bool rate(const GroupMechanics& on, const double* x, double* dx) {
+bool rate(const GroupMechanics& on, long long id, const double* x, double* dx) {
     const MatrixGroup& group = *on.group;
+    RateRoom& own = ownBuffers<RateRoom>(id, on);
     const Place at(on, x);
     const int d = group.dimension(), n = group.entries();
-    const Vector eta = velocityAt(on, at);
-    const Entries g = Eigen::Map<const Entries>(at.g, n);
-    Eigen::Map<Entries>(dx, n) = group.product(g, group.hat(eta));
-    Vector m(d), f = Vector::Zero(d);
-    double value = 0;
+    if (!on.velocity(on.model.get(), at.g, at.mu, own.eta.data())) own.eta.setConstant(std::nan(""));
+    const Eigen::Map<const Entries> g(at.g, n);
+    group.rate(g, own.eta, own.g);
+    Eigen::Map<Entries>(dx, n) = own.g;
     std::fill(dx + n + d, dx + evenStateSize(on), 0.0);
-    Eigen::Map<Vector> dJ(dx + n + d, d);
+    double value = 0;
     if (!on.isInvariant) {
-        on.gradient(on.model.get(), at.g, eta.data(), &value, m.data(), f.data());
-        dJ = group.inSpace(g, f);
+        on.gradient(on.model.get(), at.g, own.eta.data(), &value, own.m.data(), own.f.data());
+        group.inSpace(g, own.f, own.J);
+        Eigen::Map<Vector>(dx + n + d, d) = own.J;
     }
-    Eigen::Map<Vector>(dx + n, d) = group.coadjoint(eta, Eigen::Map<const Vector>(at.mu, d)) + f;
-    return eta.allFinite();
+    for (const MatrixGroup::Factor& f : group.factors()) {
+        const auto part = [&](const Vector& of) -> GroupFactor::Vector {
+            return of.segment(f.coordinate, f.d);
+        };
+        const GroupFactor::Vector mu = Eigen::Map<const Vector>(at.mu, d).segment(f.coordinate, f.d);
+        Eigen::Map<Vector>(dx + n + f.coordinate, f.d) =
+            f.constants.coadjoint(part(own.eta), mu) + part(own.f);
+    }
+    return own.eta.allFinite();
 }
 
 double energyAt(const GroupMechanics& on, const double* x) {
@@ -201,7 +218,7 @@ System systemOf(const Settings& settings) {
         const Place at(on, x);
         return velocityAt(on, at).dot(Eigen::Map<const Vector>(at.mu, on.dimension())) / 2;
     };
-    s.rate = [on](double, const double* x, double* dx) { return rate(on, x, dx); };
+    s.rate = [on, id = nextModelId()](double, const double* x, double* dx) { return rate(on, id, x, dx); };
     s.frequency = [on](double, const double* x) { return frequencyAt(on, x); };
     s.start = [on, parameters = typed::parametersOf(settings)](const Settings& initial, double) {
         return startOf(on, typed::startWrittenOut(initial, parameters));

@@ -11,7 +11,7 @@
 namespace extremal::groups {
 namespace {
 
-constexpr int few = 24;  ///< coordinates that are eliminated as a full matrix
+constexpr int few = 48;  ///< coordinates that are eliminated as a full matrix
 
 }  // namespace
 
@@ -37,26 +37,34 @@ MassSolver::MassSolver(const Couplings& on, const std::vector<std::pair<int, int
                 if (on.areCoupled(on.partOf(row), on.partOf(column)))
                     set.entries.push_back({i, j, on.place(row, column)});
             }
+        const std::size_t rows = set.coordinates.size(), full = n <= few ? rows * rows : 0;
+        matrix_.resize(std::max(matrix_.size(), full));
+        right_.resize(std::max(right_.size(), rows));
     }
 }
 
-void MassSolver::solve(const double* masses, double* b) const {
+void MassSolver::solve(const double* masses, double* b) {
     for (const Set& set : sets_) {
-        const auto n = static_cast<Eigen::Index>(set.coordinates.size());
-        Eigen::VectorXd x(n);
-        for (Eigen::Index i = 0; i < n; ++i) x(i) = b[set.coordinates[static_cast<std::size_t>(i)]];
+        const auto n = static_cast<int>(set.coordinates.size());
+        Eigen::Map<Eigen::VectorXd> x(right_.data(), n);
+        for (int i = 0; i < n; ++i) x(i) = b[set.coordinates[static_cast<std::size_t>(i)]];
         if (n <= few) {
-            Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, few, few> M = decltype(M)::Zero(n, n);
+            Eigen::Map<Eigen::MatrixXd> M(matrix_.data(), n, n);
+            M.setZero();
             for (const Entry& e : set.entries) M(e.row, e.column) = masses[e.place];
-            eliminate(static_cast<int>(n), M.data(), x.data());
+            eliminate(n, M.data(), x.data());
         } else {
             std::vector<Eigen::Triplet<double>> entries;
             for (const Entry& e : set.entries) entries.emplace_back(e.row, e.column, masses[e.place]);
             Eigen::SparseMatrix<double> M(n, n);
             M.setFromTriplets(entries.begin(), entries.end());
-            if (solveSparse(M, Eigen::VectorXd(x), x) != Outcome::converged) x.setConstant(std::nan(""));
+            Eigen::VectorXd solution;
+            if (solveSparse(M, Eigen::VectorXd(x), solution) == Outcome::converged)
+                x = solution;
+            else
+                x.setConstant(std::nan(""));
         }
-        for (Eigen::Index i = 0; i < n; ++i) b[set.coordinates[static_cast<std::size_t>(i)]] = x(i);
+        for (int i = 0; i < n; ++i) b[set.coordinates[static_cast<std::size_t>(i)]] = x(i);
     }
 }
 

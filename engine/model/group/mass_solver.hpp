@@ -17,8 +17,8 @@ public:
     MassSolver(const Couplings& on, const std::vector<std::pair<int, int>>& coupled);
 
     /// Replaces b by the solution, which is not finite where M is singular. M: in the layout of the
-    /// couplings.
-    void solve(const double* M, double* b) const;
+    /// couplings. Allocates where M couples more than 48 coordinates with each other.
+    void solve(const double* M, double* b);
 
 private:
     struct Entry {
@@ -30,6 +30,7 @@ private:
         std::vector<Entry> entries;
     };
     std::vector<Set> sets_;
+    std::vector<double> matrix_, right_;  ///< room for the largest full matrix
 };
 
 }  // namespace extremal::groups

@@ -112,7 +112,8 @@ void checkRegular(const Spheres& on, const State& initial) {
     const GroupMechanics& m = *on.mechanics;
     const int d = m.dimension();
     const MatrixGroup::Entries g = framesAt(m, initial.x.data());
-    MatrixGroup::Vector eta = MatrixGroup::Vector::Zero(d), mu = bodyMomenta(g, initial.x.data() + d);
+    MatrixGroup::Vector eta = MatrixGroup::Vector::Zero(d), mu;
+    bodyMomenta(g, initial.x.data() + d, mu);
     const bool isFound = m.velocity(m.model.get(), g.data(), mu.data(), eta.data());
     const groups::SecondDerivatives second(m, g.data(), eta, false);
     if (!second.isFinite())

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/algebra/dense.hpp"
+#include "engine/core/own_buffers.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/model/group/group_symmetry.hpp"
@@ -25,47 +26,56 @@ using Entries = MatrixGroup::Entries;
 
 constexpr const char* axes[] = {"x", "y", "z"};
 
-/// A state in frames at its points.
+/// A state in frames at its points, and room for derivatives of L; one of each thread (core/own_buffers.hpp).
 struct InFrames {
     Entries g;
-    Vector mu, eta;
-    bool isKnown;
+    Vector mu, eta, m, f;
+    double L = 0;
+    bool isKnown = false;
 
-    InFrames(const GroupMechanics& on, const double* x)
-        : g(framesAt(on, x)), mu(bodyMomenta(g, x + on.dimension())), eta(on.dimension()) {
+    explicit InFrames(const GroupMechanics& on)
+        : g(on.group->entries()), mu(on.dimension()), eta(mu), m(mu), f(mu) {}
+    void place(const GroupMechanics& on, const double* x) {
+        framesAt(on, x, g);
+        bodyMomenta(g, x + on.dimension(), mu);
         for (const int k : on.isotropy) mu(k) = 0;
         isKnown = on.velocity(on.model.get(), g.data(), mu.data(), eta.data());
         if (!isKnown) eta.setConstant(std::nan(""));
     }
+    void differentiate(const GroupMechanics& on) {
+        on.gradient(on.model.get(), g.data(), eta.data(), &L, m.data(), f.data());
+    }
 };
+InFrames inFrames(const GroupMechanics& on, const double* x) {
+    InFrames made(on);
+    made.place(on, x);
+    return made;
+}
 
 /// x' = w x x and pi' = R f with w = R eta.
-bool rate(const GroupMechanics& on, const double* x, double* dx) {
-    const InFrames at(on, x);
+bool rate(const GroupMechanics& on, long long id, const double* x, double* dx) {
+    InFrames& at = ownBuffers<InFrames>(id, on);
+    at.place(on, x);
+    at.differentiate(on);
     const int d = on.dimension();
-    Vector m(d), f(d);
-    double value = 0;
-    on.gradient(on.model.get(), at.g.data(), at.eta.data(), &value, m.data(), f.data());
     for (int k = 0; k < d; k += 3) {
         const Frame R = frameOf(at.g, k);
         const Eigen::Vector3d w = R * at.eta.segment<3>(k);
         Eigen::Map<Eigen::Vector3d>(dx + k) = so3::cross(w, Eigen::Vector3d(x[k], x[k + 1], x[k + 2]));
-        Eigen::Map<Eigen::Vector3d>(dx + d + k) = R * f.segment<3>(k);
+        Eigen::Map<Eigen::Vector3d>(dx + d + k) = R * at.f.segment<3>(k);
     }
     return at.isKnown;
 }
 
 double energyAt(const GroupMechanics& on, const double* x) {
-    const InFrames at(on, x);
-    Vector m(on.dimension());
-    double value = 0;
-    on.gradient(on.model.get(), at.g.data(), at.eta.data(), &value, m.data(), nullptr);
-    return at.eta.dot(at.mu) - value;
+    InFrames at = inFrames(on, x);
+    at.differentiate(on);
+    return at.eta.dot(at.mu) - at.L;
 }
 
 /// How fast points go around their spheres, or swing: the larger.
 double frequencyAt(const GroupMechanics& on, const double* x) {
-    const InFrames at(on, x);
+    const InFrames at = inFrames(on, x);
     const double turning = on.group->adNorm(at.eta);
     const groups::SecondDerivatives second(on, at.g.data(), at.eta);
     const double swinging = std::sqrt(second.largestRatio(on.isotropy));
@@ -196,10 +206,12 @@ System systemOf(const Settings& settings) {
     const auto mechanics = on.mechanics;
     s.energy = [mechanics](double, const double* x) { return energyAt(*mechanics, x); };
     s.kineticEnergy = [mechanics](double, const double* x) {
-        const InFrames at(*mechanics, x);
+        const InFrames at = inFrames(*mechanics, x);
         return at.eta.dot(at.mu) / 2;
     };
-    s.rate = [mechanics](double, const double* x, double* dx) { return rate(*mechanics, x, dx); };
+    s.rate = [mechanics, id = nextModelId()](double, const double* x, double* dx) {
+        return rate(*mechanics, id, x, dx);
+    };
     s.frequency = [mechanics](double, const double* x) { return frequencyAt(*mechanics, x); };
     s.start = [on](const Settings& initial, double) { return startOf(on, initial); };
     s.parts.set(NamedStart{startFields(on.names),

@@ -51,18 +51,21 @@ using Frame = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 inline Frame frameOf(const MatrixGroup::Entries& g, int k) { return Frame(g.data() + 3 * k); }
 
 /// Frames at all points of a state.
-inline MatrixGroup::Entries framesAt(const GroupMechanics& on, const double* x) {
-    MatrixGroup::Entries g(on.group->entries());
+inline void framesAt(const GroupMechanics& on, const double* x, MatrixGroup::Entries& g) {
+    g.resize(on.group->entries());
     for (int k = 0; k < on.dimension(); k += 3) frameAt(x + k, g.data() + 3 * k);
+}
+inline MatrixGroup::Entries framesAt(const GroupMechanics& on, const double* x) {
+    MatrixGroup::Entries g;
+    framesAt(on, x, g);
     return g;
 }
 
 /// R^T pi of each sphere, in frames g.
-inline MatrixGroup::Vector bodyMomenta(const MatrixGroup::Entries& g, const double* pi) {
-    MatrixGroup::Vector mu(g.size() / 3);
+inline void bodyMomenta(const MatrixGroup::Entries& g, const double* pi, MatrixGroup::Vector& mu) {
+    mu.resize(g.size() / 3);
     for (int k = 0; k < mu.size(); k += 3)
         mu.segment<3>(k) = frameOf(g, k).transpose() * Eigen::Map<const Eigen::Vector3d>(pi + k);
-    return mu;
 }
 
 /// The points R e_3, of length 1.

@@ -38,6 +38,7 @@ struct Share {
 struct UsedEntry {
     int entry = 0, part = 0, first = 0, d = 0;  ///< its factor, and the coordinates of that
     int move = 0;                       ///< the first of the d numbers that say how it moves along g E_a
+    std::size_t square = 0;             ///< the block of its factor in S
     std::vector<Share> shares, second;  ///< of g E_a, and of g E_b E_a
 };
 
@@ -104,35 +105,69 @@ void addOuter(double h, const double* a, int rows, const double* b, int columns,
         for (int i = 0; i < rows; ++i) *S++ += h * a[i] * b[j];
 }
 
+template <class Registers>
+void fillMasses(const TypedGroup& of, const Registers& r, double* M) {
+    std::fill_n(M, of.couplings->entries(), 0.0);
+    const std::size_t first = 1 + static_cast<std::size_t>(of.d) + of.used.size();
+    for (std::size_t k = 0; k < of.masses; ++k) M[of.places[k].at] = M[of.places[k].mirrored] = r[first + k];
+}
+
+/// L, m and M.
+void massesAt(const TypedGroup& of, const double* g, const double* eta, double* value, double* m, double* M) {
+    const Evaluated r(of, of.inertia, g, eta);
+    fillGradient(of, r, g, value, m, nullptr);
+    fillMasses(of, r, M);
+}
+
+/// Room of one thread, and M, which is kept where it is constant.
+struct OwnRoom {
+    explicit OwnRoom(const TypedGroup& of)
+        : moves(of.moves),
+          masses(of.couplings->entries()),
+          solver(*of.couplings, of.massCoupled),
+          x(of.d),
+          m(x),
+          change(x) {}
+    /// m and M at the velocity x.
+    void evaluate(const TypedGroup& of, const double* g) {
+        double value = 0;
+        if (isKnown) return gradientAt(&of, g, x.data(), &value, m.data(), nullptr);
+        massesAt(of, g, x.data(), &value, m.data(), masses.data());
+        for (const int k : of.isotropy) masses[of.couplings->place(k, k)] = 1;
+        isKnown = of.hasConstantMasses;
+    }
+    Vector moves;
+    std::vector<double> masses;
+    MassSolver solver;
+    Vector x, m, change;
+    bool isKnown = false;
+};
+OwnRoom& ownRoom(const TypedGroup& of) { return ownBuffers<OwnRoom>(of.id, of); }
+
 void jetAt(const void* p, const double* g, const double* eta, double* value, double* m, double* f, double* M,
            double* N, double* S) {
     const TypedGroup& of = self(p);
-    const Evaluated r(of, f ? of.jet : of.inertia, g, eta);
+    if (!f) return massesAt(of, g, eta, value, m, M);
+    const Evaluated r(of, of.jet, g, eta);
     fillGradient(of, r, g, value, m, f);
-    const std::size_t entries = of.couplings->entries();
-    std::fill_n(M, entries, 0.0);
-    const std::size_t first = 1 + static_cast<std::size_t>(of.d) + of.used.size();
-    Vector moves;
-    if (f) {
-        std::fill_n(N, entries, 0.0);
-        std::fill_n(S, entries, 0.0);
-        moves = Vector::Zero(of.moves);
-        for (std::size_t e = 0; e < of.used.size(); ++e) {
-            const UsedEntry& entry = of.used[e];
-            for (const Share& s : entry.shares) moves(entry.move + s.a) += s.value * g[s.entry];
-            if (entry.second.empty()) continue;
-            const double by = r[1 + static_cast<std::size_t>(of.d) + e];
-            double* const slope = S + of.couplings->place(entry.first, entry.first);
-            for (const Share& s : entry.second) slope[s.b * entry.d + s.a] += by * s.value * g[s.entry];
-        }
+    fillMasses(of, r, M);
+    const std::size_t entries = of.couplings->entries(),
+                      first = 1 + static_cast<std::size_t>(of.d) + of.used.size();
+    std::fill_n(N, entries, 0.0);
+    std::fill_n(S, entries, 0.0);
+    Vector& moves = ownRoom(of).moves;
+    moves.setZero();
+    for (std::size_t e = 0; e < of.used.size(); ++e) {
+        const UsedEntry& entry = of.used[e];
+        for (const Share& s : entry.shares) moves(entry.move + s.a) += s.value * g[s.entry];
+        if (entry.second.empty()) continue;
+        const double by = r[1 + static_cast<std::size_t>(of.d) + e];
+        double* const slope = S + entry.square;
+        for (const Share& s : entry.second) slope[s.b * entry.d + s.a] += by * s.value * g[s.entry];
     }
-    for (std::size_t k = 0; k < (f ? of.places.size() : of.masses); ++k) {
+    for (std::size_t k = of.masses; k < of.places.size(); ++k) {
         const Destination& to = of.places[k];
         const double h = r[first + k];
-        if (to.kind == Destination::Kind::mass) {
-            M[to.at] = M[to.mirrored] = h;
-            continue;
-        }
         const UsedEntry& e = of.used[static_cast<std::size_t>(to.e)];
         const double* const own = moves.data() + e.move;
         if (to.kind == Destination::Kind::mixed) {
@@ -145,43 +180,26 @@ void jetAt(const void* p, const double* g, const double* eta, double* value, dou
     }
 }
 
-/// The masses of one thread: M is kept where it is constant.
-struct Masses {
-    explicit Masses(const TypedGroup& of)
-        : values(of.couplings->entries()), solver(*of.couplings, of.massCoupled) {}
-    /// m and M at a velocity.
-    void evaluate(const TypedGroup& of, const double* g, const double* eta, double* m) {
-        double value = 0;
-        if (isKnown) return gradientAt(&of, g, eta, &value, m, nullptr);
-        jetAt(&of, g, eta, &value, m, nullptr, values.data(), nullptr, nullptr);
-        for (const int k : of.isotropy) values[of.couplings->place(k, k)] = 1;
-        isKnown = of.hasConstantMasses;
-    }
-    std::vector<double> values;
-    MassSolver solver;
-    bool isKnown = false;
-};
-
 /// Newton's method on dL/deta = mu from rest; one step where L is quadratic in eta.
 bool velocityAt(const void* p, const double* g, const double* mu, double* eta) {
     const TypedGroup& of = self(p);
-    Masses& masses = ownBuffers<Masses>(of.id, of);
-    Vector x = Vector::Zero(of.d), m(of.d);
+    OwnRoom& own = ownRoom(of);
+    own.x.setZero();
     double last = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < 100; ++iteration) {
-        masses.evaluate(of, g, x.data(), m.data());
-        Vector change = Eigen::Map<const Vector>(mu, of.d) - m;
-        for (const int k : of.isotropy) change(k) = 0;
-        const bool isDone = change.isZero(0);
-        if (!change.allFinite()) return false;
-        masses.solver.solve(masses.values.data(), change.data());
-        if (!change.allFinite()) return false;
-        x += change;
-        const double size = change.norm(), scale = x.norm();
+        own.evaluate(of, g);
+        own.change = Eigen::Map<const Vector>(mu, of.d) - own.m;
+        for (const int k : of.isotropy) own.change(k) = 0;
+        const bool isDone = own.change.isZero(0);
+        if (!own.change.allFinite()) return false;
+        own.solver.solve(own.masses.data(), own.change.data());
+        if (!own.change.allFinite()) return false;
+        own.x += own.change;
+        const double size = own.change.norm(), scale = own.x.norm();
         const bool isFound = of.isQuadratic || size <= 1e-15 * scale ||
                              (iteration > 5 && size >= last && size <= 1e-10 * scale) || isDone;
         if (isFound) {
-            std::copy_n(x.data(), of.d, eta);
+            std::copy_n(own.x.data(), of.d, eta);
             return true;
         }
         last = size;
@@ -342,6 +360,7 @@ void placeDerivatives(const MatrixGroup& group, const std::vector<std::pair<int,
                             model.massCoupled.end());
     const auto couplings = std::make_shared<const Couplings>(sizes, std::move(coupled));
     model.couplings = couplings;
+    for (UsedEntry& e : model.used) e.square = couplings->find(e.part, e.part).place;
     for (const auto& [i, j] : found) {  // j <= i
         if (i < model.d) {
             model.places.push_back({Destination::Kind::mass, couplings->place(i, j), couplings->place(j, i)});
