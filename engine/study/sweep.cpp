@@ -301,11 +301,10 @@ std::vector<PointResult> Sweep::spend(const std::vector<SearchedScheme>& schemes
                       stop);
 }
 
-bool Sweep::isJudged(const PointResult& result) const {
+Sweep::ErrorRange Sweep::judgedErrors() const {
     constexpr double likeTheMotion = 0.2;
-    if (!result.isDone() || !std::isfinite(result.error)) return false;
-    const double floor = metric().needsSizes() ? 0 : metric().floorBy(reference_.estimatedError);
-    return result.error >= floor && result.error < likeTheMotion * metricSize_;
+    return {metric().needsSizes() ? 0 : metric().floorBy(reference_.estimatedError),
+            likeTheMotion * metricSize_};
 }
 
 /// Only where the two methods part altogether: by a thousandth of the motion, as they do where it is chaotic.

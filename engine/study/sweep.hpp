@@ -7,6 +7,7 @@
 /// i mod N + 1 of N), and points that are known from an earlier run are not computed again.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <span>
@@ -82,9 +83,15 @@ public:
     std::string unjudged(double wish) const;
     /// Of the first metric, in the reference; infinity: not known.
     double metricSize() const { return metricSize_; }
-    /// Whether an error says something of the scheme: above what the reference can tell, and below a fifth of
-    /// the motion.
-    bool isJudged(const PointResult& result) const;
+    /// Errors that say something of a scheme: from what the reference can tell up to a fifth of the motion.
+    struct ErrorRange {
+        double least = 0, most = std::numeric_limits<double>::infinity();
+        bool has(double error) const { return error >= least && error < most; }
+    };
+    ErrorRange judgedErrors() const;
+    bool isJudged(const PointResult& result) const {
+        return result.isDone() && std::isfinite(result.error) && judgedErrors().has(result.error);
+    }
     /// Of all candidates: those that do not accept the system.
     const std::vector<RefusedCandidate>& refused() const { return refused_; }
     /// Whether a scheme is one of the scene, not a candidate that was added.

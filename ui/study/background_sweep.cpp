@@ -34,13 +34,14 @@ bool isSameRun(SchemeSpec a, SchemeSpec b) {
 }
 
 SweptScheme sweepOf(const ResolvedScene& scene, const SchemeSpec& spec, const std::stop_token& stop) {
-    SweptScheme swept{spec, 0, {}};
+    SweptScheme swept{spec, 0, {}, {}};
     const double own = spec.tolerance ? *spec.tolerance : spec.step.value,
                  wide = spec.tolerance ? 100 : stepRatio;
     SweepOptions options;
     options.metric = "column:error";  // as the runs beside it have it, whatever the units
     options.ladder = {{}, own * wide, own / wide, sweptPoints};
     options.repeat = 1;
+    options.knobs.isCells = false;  // a click on a point changes the step alone
     options.only = {spec.label};
     options.threads = 1;
     try {
@@ -50,6 +51,7 @@ SweptScheme sweepOf(const ResolvedScene& scene, const SchemeSpec& spec, const st
             if (row.result.isDone() && row.result.error > 0 && row.result.cpuSeconds > 0)
                 swept.points.push_back({row.point.step > 0 ? row.point.step : row.point.tolerance,
                                         row.result.cpuSeconds, row.result.error});
+        swept.judged = sweep.judgedErrors();
     } catch (const InvalidScene&) {  // no ladder, or no error to measure: no line
     }
     return swept;
@@ -87,7 +89,7 @@ std::vector<SweptScheme> BackgroundSweep::known() const {
     for (const auto& scheme : results->schemes)
         for (const SweptScheme& swept : swept_)
             if (isSameRun(swept.spec, scheme->spec))
-                all.push_back({scheme->spec, scheme->style, swept.points});
+                all.push_back({scheme->spec, scheme->style, swept.points, swept.judged});
     return all;
 }
 
@@ -109,7 +111,7 @@ void BackgroundSweep::addLines(Figure& figure) const {
         for (const SweptPoint& p : swept.points) {
             line.x.push_back(p.seconds);
             line.y.push_back(p.error);
-            points.emplace_back(p.seconds, p.error);
+            if (swept.judged.has(p.error)) points.emplace_back(p.seconds, p.error);
         }
         seconds.insert(seconds.end(), line.x.begin(), line.x.end());
         errors.insert(errors.end(), line.y.begin(), line.y.end());
@@ -119,7 +121,7 @@ void BackgroundSweep::addLines(Figure& figure) const {
     widen(figure.y, errors);
     if (!all.empty())
         for (const auto& scheme : run_.results()->schemes)
-            if (scheme->summary.status == RunStatus::done)
+            if (scheme->summary.status == RunStatus::done && all.front().judged.has(scheme->summary.maxError))
                 points.emplace_back(scheme->summary.cpuSeconds, scheme->summary.maxError);
     addFront(figure, std::move(points));
 }

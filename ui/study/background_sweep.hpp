@@ -14,6 +14,7 @@
 
 #include "engine/figure/figure.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/study/sweep.hpp"
 
 namespace extremal {
 
@@ -28,6 +29,7 @@ struct SweptScheme {
     SchemeSpec spec;
     int style = 0;
     std::vector<SweptPoint> points;  ///< from the largest step down; of runs that came to their end
+    Sweep::ErrorRange judged = {};   ///< others are not on the front
 };
 
 class BackgroundSweep : public QObject {

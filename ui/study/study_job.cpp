@@ -23,8 +23,14 @@ Arrival taking(Arguments... arguments) {
 }
 
 void run(Sweep& sweep, const Announce& announce, const std::stop_token& stop) {
-    sweep.run([&](const ReferenceInfo& info) { announce(taking<Sweep>(info)); },
-              [&](std::size_t i, const PointResult& result) { announce(taking<Sweep>(i, result)); }, stop);
+    sweep.run(
+        [&](const ReferenceInfo& info) {
+            announce([info, size = sweep.metricSize()](Study& study) {
+                std::get<Sweep>(study).take(info);
+                std::get<Sweep>(study).takeSize(size);  // what a fifth of it says nothing of is off the front
+            });
+        },
+        [&](std::size_t i, const PointResult& result) { announce(taking<Sweep>(i, result)); }, stop);
 }
 
 void run(StabilityStudy& study, const Announce& announce, const std::stop_token& stop) {

@@ -48,7 +48,7 @@ void addWish(Figure& figure, const Sweep& sweep) {
     high = std::max(std::min(high, aboveMotion * sweep.metricSize()), wish * room);
     figure.add(Guide{{left, right}, {wish, wish}, true});
     figure.add(Label{left * std::pow(right / left, place), wish * std::pow(high / low, 0.02),
-                     "wish " + formatNumber(wish, 2)});
+                     "wish " + shortNumber(wish, 2)});
 }
 
 }  // namespace
