@@ -62,11 +62,14 @@ private slots:
         QVERIFY(front && front->x.size() >= 2);
         for (std::size_t i = 1; i < front->x.size(); ++i)
             QVERIFY(front->x[i] > front->x[i - 1] && front->y[i] < front->y[i - 1]);
+        const Sweep::ErrorRange judged = window.sweep().known().front().judged;
+        QVERIFY(judged.most > 0.1 && judged.most < 1);  // a fifth of the motion
         for (const Series& s : figure.series())
             for (std::size_t i = 0; i < s.x.size(); ++i) {
                 const bool isCheaper = s.x[i] < front->x.front(), isBetter = s.y[i] < front->y.back();
-                QVERIFY2(!isCheaper && !isBetter, s.label.c_str());
+                QVERIFY2(!judged.has(s.y[i]) || (!isCheaper && !isBetter), s.label.c_str());
             }
+        for (const double error : front->y) QVERIFY(judged.has(error));
         // The axes show all of them.
         for (const Series& s : figure.series())
             for (std::size_t i = 0; i < s.x.size(); ++i)

@@ -12,6 +12,8 @@
 #include <QPushButton>
 #include <QTableWidget>
 
+#include <cmath>
+
 #include "engine/scene/preset.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/search/proposal.hpp"
@@ -162,6 +164,8 @@ private slots:
         StudyPage& page = window.studies();
         const Series& series = page.plot().figure().series().front();
         QVERIFY(series.rows.size() == series.x.size() && series.rows.size() > 3);
+        // The window's copy knows the size of the motion, where its front ends.
+        QVERIFY(std::isfinite(page.job().as<Sweep>()->metricSize()));
         const SweepRow row = page.job().as<Sweep>()->rows()[series.rows[2]];
         const Scene before = window.workspace().scene();
         click(page.plot(), series.x[2], series.y[2]);
