@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "engine/integrator/shared_force.hpp"
@@ -80,6 +81,7 @@ public:
 
     /// Tangent maps multiply; every part has its own last step.
     std::size_t tangentSize() const override { return schemes_.front()->tangentSize(); }
+    std::string tangentProblem() const override { return schemes_.front()->tangentProblem(); }
     bool applyTangent(std::span<double> W) override {
         return std::all_of(schemes_.begin(), schemes_.end(),
                            [&](const auto& scheme) { return scheme->applyTangent(W); });

@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    bool isLinear() const override { return false; }
+    bool isLinear() const override { return coupling_.g == 0; }
     double shiftFrom(const State& state) const override {
         return chemicalPotential(shared(), coupling_, state.t, coefficients(state.x.data()));
     }
