@@ -26,6 +26,13 @@ const std::vector<CatalogItem>& studyCatalog() {
 
 std::vector<StudyTable> tablesOf(const StudyEntry& study, const Sweep& sweep) {
     std::vector<StudyTable> all{{study.item.id, study.columns, study.rows(sweep)}};
+    if (!study.further.empty()) {
+        auto& [name, columns, rows] = all.front();
+        const bool isKnown = std::any_of(rows.begin(), rows.end(),
+                                         [](const Value::Array& row) { return !row.back().isNull(); });
+        if (isKnown) columns.push_back(study.further);
+        for (Value::Array& row : rows) row.resize(columns.size());
+    }
     if (study.besides)
         for (StudyTable& table : study.besides(sweep)) all.push_back(std::move(table));
     return all;

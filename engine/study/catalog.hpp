@@ -32,6 +32,7 @@ struct StudyEntry {
     CatalogItem item;
     Over over = Over::steps;
     std::vector<std::string> columns;  ///< of <id>.csv
+    std::string further = {};          ///< the last entry of a row, a column of <id>.csv where any row has it
     /// Its rows; null of a study over numbers, as the rest.
     std::vector<Value::Array> (*rows)(const Sweep&) = nullptr;
     /// What a terminal shows: its titles, and fewer rows.

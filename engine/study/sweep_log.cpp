@@ -37,7 +37,7 @@ std::string pointLine(std::size_t index, const PointResult& r) {
         line += ',' + std::to_string(value);
     line += cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
     line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes) + ',' +
-            std::to_string(r.reduction.cells) + cellsText({r.reduction.solver, r.reduction.courant});
+            std::to_string(r.reduction.cells) + cellsText({r.reduction.solver, r.reduction.stepFactor});
     line += cellsText({r.unreducedWork, r.timesCheapest, r.excess, r.floor, r.confirmedAt});
     std::vector<double> tried;
     for (const TriedRun& run : r.tried) tried.insert(tried.end(), {run.cpuSeconds, run.work, run.error});

@@ -257,7 +257,7 @@ Family asynchronous() {
     }});
     f.parts.set(SystemCondition{
         [](const System& system) { return isMembrane(system) || system.fieldProblem().isBody; }});
-    f.parts.set(StepOfSpace{impliedStep});
+    f.parts.set(StepOfSpace{impliedStep, "courant"});
     f.parts.set(ElementSteps{elementsOf});
     f.parts.set(SchemeIdentity{
         [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; }});

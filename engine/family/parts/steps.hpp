@@ -27,6 +27,7 @@ struct StepOfSpace {
     static constexpr PartInfo part{"step-of-space", "a step that follows from the space", false};
     std::optional<ImpliedStep> (*implied)(const Settings& space, const Settings& model,
                                           const ParameterValue&) = nullptr;
+    const char* factor = nullptr;  ///< the key of the space that the step is proportional to; null: none
 };
 
 /// The largest step that is stable, for what the window adds; 0: there is none. Without it the step is chosen

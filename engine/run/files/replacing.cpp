@@ -122,6 +122,11 @@ bool isOwnPicture(const std::string& bytes) {
     return bytes.starts_with("%PDF") && bytes.find(creator) != std::string::npos;
 }
 
+/// These, or these and further ones.
+bool hasColumns(std::string_view line, std::string_view columns) {
+    return line.starts_with(columns) && (line.size() == columns.size() || line[columns.size()] == ',');
+}
+
 bool isOwn(const fs::path& file, std::optional<std::string_view> text) {
     const std::string name = file.filename().string(), kind = file.extension().string();
     if (name == "scene.json") return isOwnScene(file);
@@ -131,7 +136,7 @@ bool isOwn(const fs::path& file, std::optional<std::string_view> text) {
     if (kind == ".csv") {
         const std::string first(firstLineOf(contentOf(file, 1 << 16)));
         // Before a run its columns are not known, but how they begin.
-        return text ? first == firstLineOf(*text) || isListed(file)
+        return text ? hasColumns(first, firstLineOf(*text)) || isListed(file)
                     : isListed(file) || first.starts_with("t,") || first.starts_with("x,") ||
                           first.starts_with("label,");
     }

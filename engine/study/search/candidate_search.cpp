@@ -39,10 +39,10 @@ StudyPoint CandidateSearch::pointAt(const StudyPoint& own, const ResolvedScheme&
     StudyPoint point = own;
     if (scheme.isAdaptive()) {
         point.tolerance = 1 / n;
-    } else if (const double courant = courantOf(scheme, scene_); courant > 0) {
+    } else if (const double factor = stepFactorOf(scheme, scene_); factor > 0) {
         const double given = std::round(length_ / own.step);
         if (n == given) return point;
-        point.reduction.courant = courant * given / n;
+        point.reduction.stepFactor = factor * given / n;
         point.step = own.step * given / n;
     } else if (!hasStepOfItsSpace(scene_, scheme)) {
         point.step = length_ / n;
@@ -114,7 +114,7 @@ RaceEntry CandidateSearch::entryFor(const StudyPoint& own, const ResolvedScheme&
     entry.isAdaptive = scheme.isAdaptive();
     entry.order = entry.isAdaptive ? 1 : scheme.claims.order > 0 ? scheme.claims.order : 2;
     const bool isOfSpace = hasStepOfItsSpace(scene_, scheme);
-    entry.isSingle = isOfSpace && (!knobs_.isCourant || courantOf(scheme, scene_) == 0);
+    entry.isSingle = isOfSpace && (!knobs_.isStepFactor || stepFactorOf(scheme, scene_) == 0);
     entry.hasOtherKnob = knobs_.isCells && !entry.isSingle && cellsOf(scheme, scene_) > 0;
     if (isOfSpace)
         entry.firstN = std::max(1.0, std::round(length_ / own.step));
@@ -147,7 +147,7 @@ RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& sche
     RaceRun run{job.n, excessOf(result, wishes), cost, false, result.isCutOff, false};
     run.isSaturated = run.excess > 0 && isSaturated(result);
     // A Courant number may be too large; everything else is refused whatever the step.
-    run.isAtFloor = result.cause == Outcome::refused && result.reduction.courant == 0;
+    run.isAtFloor = result.cause == Outcome::refused && result.reduction.stepFactor == 0;
     for (std::size_t i = 0; i < wishes.size() && run.excess > 0 && result.isDone(); ++i) {
         const double value = result.errorIn(i);
         run.isAtFloor = run.isAtFloor || (value > wishes[i] && value <= floorOf(i));

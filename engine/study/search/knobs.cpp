@@ -6,12 +6,27 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/family/parts/steps.hpp"
 
 namespace extremal {
+namespace {
+
+/// Keys of spaces that steps are proportional to, each once.
+std::vector<std::string> factorKeys() {
+    std::vector<std::string> keys;
+    for (const Family& family : families())
+        if (const auto* const own = family.parts.find<StepOfSpace>(); own && own->factor)
+            if (std::find(keys.begin(), keys.end(), own->factor) == keys.end())
+                keys.emplace_back(own->factor);
+    return keys;
+}
+
+}  // namespace
 
 SearchKnobs parseKnobs(const std::string& text) {
     if (text.empty()) return {};
     SearchKnobs knobs{false, false, false, false};
+    const std::vector<std::string> factors = factorKeys();
     for (std::size_t from = 0; from <= text.size();) {
         const std::size_t comma = std::min(text.find(',', from), text.size());
         const std::string name = text.substr(from, comma - from);
@@ -19,21 +34,23 @@ SearchKnobs parseKnobs(const std::string& text) {
             knobs.isDegree = true;
         else if (name == "cells")
             knobs.isCells = true;
-        else if (name == "courant")
-            knobs.isCourant = true;
+        else if (std::find(factors.begin(), factors.end(), name) != factors.end())
+            knobs.isStepFactor = true;
         else if (name == "tolerance")
             knobs.isTolerance = true;
         else if (name != "step")
             throw InvalidScene("--knobs", "there is no knob \"" + name + "\"",
-                               "step, degree, cells, courant, tolerance");
+                               "step, degree, cells, " + joinNames(factors) + ", tolerance");
         from = comma + 1;
     }
     return knobs;
 }
 
 std::string textOf(const SearchKnobs& knobs) {
+    std::string factors;
+    for (const std::string& key : factorKeys()) factors += "," + key;
     return std::string("step") + (knobs.isDegree ? ",degree" : "") + (knobs.isCells ? ",cells" : "") +
-           (knobs.isCourant ? ",courant" : "") + (knobs.isTolerance ? ",tolerance" : "");
+           (knobs.isStepFactor ? factors : "") + (knobs.isTolerance ? ",tolerance" : "");
 }
 
 }  // namespace extremal

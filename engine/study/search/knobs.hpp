@@ -15,7 +15,7 @@ namespace extremal {
 struct SearchKnobs {
     bool isDegree = true;      ///< degree and nodes, of schemes of the scene
     bool isCells = true;       ///< elements in space, of schemes on meshes
-    bool isCourant = true;     ///< the number that steps follow from, of schemes that have one
+    bool isStepFactor = true;  ///< the number that steps follow from, of schemes that have one
     bool isTolerance = false;  ///< of the solver, of implicit schemes
     bool operator==(const SearchKnobs&) const = default;
 };

@@ -3,6 +3,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/family/parts/meshes.hpp"
+#include "engine/family/parts/steps.hpp"
 #include "engine/study/search/ladder.hpp"
 
 namespace extremal {
@@ -19,6 +20,12 @@ void set(Settings& settings, const char* key, double value) {
         if (name == key) present = value, isThere = true;
     if (!isThere) settings.keys.emplace_back(key, value);
     std::erase_if(settings.expressions, [&](const Value::Member& m) { return m.first == key; });
+}
+
+/// Null: the step is not proportional to a key of the space.
+const char* factorKey(const ResolvedScheme& scheme) {
+    const auto* const own = scheme.family ? scheme.family->parts.find<StepOfSpace>() : nullptr;
+    return own ? own->factor : nullptr;
 }
 
 }  // namespace
@@ -40,9 +47,10 @@ int cellsOf(const ResolvedScheme& scheme, const ResolvedScene& scene) {
     return own > 0 ? own : wholeNumber(scene.scene.model, "cells");
 }
 
-double courantOf(const ResolvedScheme& scheme, const ResolvedScene& scene) {
-    if (!scheme.family || !hasStepOfItsSpace(scene, scheme)) return 0;
-    const Value* const given = scheme.discretization.space.find("courant");
+double stepFactorOf(const ResolvedScheme& scheme, const ResolvedScene& scene) {
+    const char* const key = factorKey(scheme);
+    if (!key || !hasStepOfItsSpace(scene, scheme)) return 0;
+    const Value* const given = scheme.discretization.space.find(key);
     return given && given->isNumber() ? given->asNumber() : 0;
 }
 
@@ -54,7 +62,7 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
         std::erase_if(spec.solver.keys, [](const Value::Member& m) { return m.first == "tolerance"; });
         spec.solver.keys.emplace_back("tolerance", to.solver);
     }
-    if (to.degree > 0 || to.cells > 0 || to.courant > 0) {
+    if (to.degree > 0 || to.cells > 0 || to.stepFactor > 0) {
         spec.kind = SchemeSpec::Kind::discretization;
         spec.named.clear();
         spec.space = scheme.discretization.space;
@@ -65,10 +73,11 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
         set(spec.quadrature, "nodes", to.nodes);
     }
     if (to.cells > 0) set(spec.space, "cells", to.cells);
-    if (to.courant > 0) {
-        const double own = scheme.discretization.space.number("courant");
-        set(spec.space, "courant", to.courant);
-        spec.step = {scheme.spec.step.value * to.courant / own, {}};
+    if (to.stepFactor > 0) {
+        const char* const key = factorKey(scheme);
+        const double own = scheme.discretization.space.number(key);
+        set(spec.space, key, to.stepFactor);
+        spec.step = {scheme.spec.step.value * to.stepFactor / own, {}};
     }
     ResolvedScheme result = resolve(spec, scene.system.get());
     if (!result.properties.refusal.empty()) throw InvalidScene("/quadrature", result.properties.refusal);

@@ -8,12 +8,12 @@
 
 namespace extremal {
 
-/// The degree of a space, the nodes of its rule, its elements, the tolerance of its solver, and the Courant
-/// number that its steps follow from; 0: not changed.
+/// The degree of a space, the nodes of its rule, its elements, the tolerance of its solver, and the key of
+/// the space that its steps are proportional to, as a Courant number; 0: not changed.
 struct Reduction {
     int degree = 0, nodes = 0, cells = 0;
-    double solver = 0, courant = 0;
-    explicit operator bool() const { return degree > 0 || cells > 0 || solver > 0 || courant > 0; }
+    double solver = 0, stepFactor = 0;
+    explicit operator bool() const { return degree > 0 || cells > 0 || solver > 0 || stepFactor > 0; }
     bool operator==(const Reduction&) const = default;
 };
 
@@ -23,8 +23,8 @@ Reduction richnessOf(const ResolvedScheme& scheme);
 /// The elements of a scheme whose space may have any number of them; 0: it has none.
 int cellsOf(const ResolvedScheme& scheme, const ResolvedScene& scene);
 
-/// The Courant number of a scheme whose steps follow from it; 0: they do not.
-double courantOf(const ResolvedScheme& scheme, const ResolvedScene& scene);
+/// The number in its space that the steps of a scheme are proportional to (StepOfSpace); 0: there is none.
+double stepFactorOf(const ResolvedScheme& scheme, const ResolvedScene& scene);
 
 /// The scheme with another degree and number of nodes; itself where nothing is reduced. Throws
 /// InvalidScene where there is no such scheme.

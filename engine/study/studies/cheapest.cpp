@@ -54,7 +54,8 @@ std::string keptOf(const Sweep& sweep, const SweepRow& row) {
     if (kept.degree > 0)
         text = "degree " + std::to_string(kept.degree) + ", " + counted(kept.nodes, "node") + ", ";
     if (kept.cells > 0) text += counted(kept.cells, "cell") + ", ";
-    if (r.reduction.courant > 0) text += "Courant number " + formatNumber(r.reduction.courant, 3) + ", ";
+    if (r.reduction.stepFactor > 0)
+        text += "Courant number " + formatNumber(r.reduction.stepFactor, 3) + ", ";
     if (r.reduction.solver > 0) text += "solver to " + formatNumber(r.reduction.solver, 1) + ", ";
     return text + std::to_string(r.steps) + " steps" +
            (r.tolerance > 0 ? ", tolerance " + formatNumber(r.tolerance, 3) : "");

@@ -74,7 +74,8 @@ StudyEntry convergence() {
         {},
         ""};
     e.columns = {"label", "step", "tolerance",     "error",    "status", "cause",
-                 "order", "r2",   "order_claimed", "fit_from", "fit_to", "cells"};
+                 "order", "r2",   "order_claimed", "fit_from", "fit_to"};
+    e.further = "cells";
     e.rows = rowsOf;
     e.summaryColumns = {"scheme",  "points",    "failed",  "order",
                         "claimed", "from step", "to step", "least error"};

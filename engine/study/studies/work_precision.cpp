@@ -60,7 +60,8 @@ StudyEntry work_precision() {
               {},
               ""};
     e.columns = {"label",       "step",          "tolerance", "error", "cpu_seconds", "cpu_spread",
-                 "evaluations", "linear_solves", "status",    "cause", "pareto",      "cells"};
+                 "evaluations", "linear_solves", "status",    "cause", "pareto"};
+    e.further = "cells";
     e.rows = rowsOfWork;
     e.summaryColumns = {"worth its cost", "step", "tolerance", "error", "cpu seconds", "evaluations"};
     e.summary = summaryOfWork;

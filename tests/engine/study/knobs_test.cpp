@@ -104,20 +104,20 @@ private slots:
         SweepOptions options = untimed();
         options.wantedError = 1e-2;
         Sweep sweep(sceneOf("bar-notch"), options);
-        options.knobs.isCourant = false;
+        options.knobs.isStepFactor = false;
         Sweep fixed(sceneOf("bar-notch"), options);
         runAll(sweep);
         runAll(fixed);
         for (std::size_t i = 0; i < sweep.rows().size(); ++i) {
             const PointResult &own = fixed.rows()[i].result, &found = sweep.rows()[i].result;
-            const double courant = courantOf(sweep.scene().schemes[i], sweep.scene());
+            const double courant = stepFactorOf(sweep.scene().schemes[i], sweep.scene());
             qInfo("Courant number %g in place of %g: %lld evaluations in place of %lld, error %.1e",
-                  found.reduction.courant, courant, found.cost.evaluations, own.cost.evaluations,
+                  found.reduction.stepFactor, courant, found.cost.evaluations, own.cost.evaluations,
                   found.error);
-            QVERIFY(own.reduction.courant == 0 && courant > 0);
-            QVERIFY(found.isDone() && found.error <= 1e-2 && found.reduction.courant > courant);
+            QVERIFY(own.reduction.stepFactor == 0 && courant > 0);
+            QVERIFY(found.isDone() && found.error <= 1e-2 && found.reduction.stepFactor > courant);
             QVERIFY(found.cost.evaluations < own.cost.evaluations);
-            QVERIFY(std::abs(found.step / own.step - found.reduction.courant / courant) < 1e-12);
+            QVERIFY(std::abs(found.step / own.step - found.reduction.stepFactor / courant) < 1e-12);
         }
     }
     void theLogHasWhatWasTried() {

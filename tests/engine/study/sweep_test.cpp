@@ -70,7 +70,7 @@ std::string contentOf(const std::filesystem::path& file) {
 std::string withoutClock(const StudyEntry& study, const Sweep& sweep) {
     std::string text;
     for (const Value::Array& row : study.rows(sweep))
-        for (std::size_t c = 0; c < row.size(); ++c) {
+        for (std::size_t c = 0; c < study.columns.size(); ++c) {
             const std::string& name = study.columns[c];
             if (name == "cpu_seconds" || name == "cpu_spread" || name == "pareto") continue;
             text += (row[c].isNumber()   ? QString::number(row[c].asNumber(), 'g', 17).toStdString()
