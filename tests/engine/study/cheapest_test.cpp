@@ -89,7 +89,7 @@ private slots:
         SweepOptions options;
         options.wantedError = wanted;
         options.repeat = 0;
-        options.knobs = {true, false};  // on the mesh of the scene
+        options.knobs.isCells = false;  // on the mesh of the scene
         Sweep search(scene, options);
         search.run({}, {}, {});
         double found = HUGE_VAL;

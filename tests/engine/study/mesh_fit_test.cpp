@@ -137,7 +137,7 @@ private slots:
     }
     void knobsAreNamed() {
         QVERIFY(parseKnobs("") == SearchKnobs{} && parseKnobs("step,degree,cells,courant") == SearchKnobs{});
-        QVERIFY((parseKnobs("step") == SearchKnobs{false, false}));
+        QVERIFY((parseKnobs("step") == SearchKnobs{false, false, false}));
         QVERIFY(parseKnobs(textOf(SearchKnobs{false, true})) == (SearchKnobs{false, true}));
         QVERIFY(parseKnobs("step,tolerance").isTolerance && !SearchKnobs{}.isTolerance);
         QCOMPARE(textOf(parseKnobs("tolerance,courant,step")), "step,courant,tolerance");
