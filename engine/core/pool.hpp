@@ -11,6 +11,11 @@
 
 namespace extremal {
 
+/// 0: as many as the machine has cores.
+inline unsigned threadsOf(unsigned threads) {
+    return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+}
+
 /// Calls work(i) once for every i of the list, until a stop is requested. `threads`: 0 for as many as the
 /// machine has cores.
 template <class Work>
@@ -20,8 +25,7 @@ void forEachInPool(const std::vector<std::size_t>& list, unsigned threads, const
     const auto take = [&] {
         for (std::size_t k = next++; k < list.size() && !stop.stop_requested(); k = next++) work(list[k]);
     };
-    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    const auto most = std::min<std::size_t>(threads > 0 ? threads : cores, list.size());
+    const auto most = std::min<std::size_t>(threadsOf(threads), list.size());
     std::vector<std::jthread> pool;
     for (std::size_t i = 1; i < most; ++i) pool.emplace_back(take);
     take();

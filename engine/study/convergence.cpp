@@ -52,11 +52,10 @@ OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale, do
 }
 
 std::vector<OrderFit> fitOrders(const Sweep& sweep) {
-    constexpr double likeTheMotion = 0.2;
     const double floor = referenceFloor(sweep.reference()), scale = largestEntry(sweep.scene().initial);
     std::vector<OrderFit> all;
     for (const SchemeRows& scheme : bySchemes(sweep))
-        all.push_back(fitOrder(scheme.rows, floor, scale, likeTheMotion * sweep.metricSize()));
+        all.push_back(fitOrder(scheme.rows, floor, scale, sweep.judgedErrors().most));
     return all;
 }
 

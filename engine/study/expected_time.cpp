@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
-#include "engine/core/problem.hpp"
+#include "engine/core/pool.hpp"
 #include "engine/core/thread_clock.hpp"
 #include "engine/scene/outlook/cost.hpp"
+
 namespace extremal {
 namespace {
 
@@ -16,17 +16,13 @@ constexpr double least = 1e-7;  ///< seconds: a run that fails at once costs som
 
 }  // namespace
 
-double secondsOfScene(const std::function<ReadScene()>& read) {
+double secondsOfScene(const std::function<ReadScene()>& read, const std::stop_token& stop) {
     constexpr double observed = 0.5;  // of the steps
     const double begin = threadSeconds();
     const ReadScene scene = read();
     const double reading = threadSeconds() - begin;
     if (!scene.resolved) return reading;
-    try {
-        return reading + (1 + observed) * predictSeconds(*scene.resolved, scene.resolved->schemes.front());
-    } catch (const InvalidScene&) {
-        return reading;
-    }
+    return reading + (1 + observed) * trialSeconds(*scene.resolved, scene.resolved->schemes.front(), stop);
 }
 
 void ExpectedTime::addRuns(std::size_t n, const std::function<double(std::size_t)>& seconds) {
@@ -46,14 +42,21 @@ void ExpectedTime::addRuns(std::size_t n, const std::function<double(std::size_t
     }
 }
 
+void ExpectedTime::addSeries(std::size_t n, const std::function<bool(std::size_t, std::size_t)>& isSame,
+                             const std::function<double(std::size_t)>& seconds) {
+    for (std::size_t first = 0, last; first < n; first = last) {
+        for (last = first + 1; last < n && isSame(first, last);) ++last;
+        addRuns(last - first, [&](std::size_t k) { return seconds(first + k); });
+    }
+}
+
 void ExpectedTime::add(double seconds) {
     all_ += seconds;
     longest_ = std::max(longest_, seconds);
 }
 
 double ExpectedTime::onThreads(unsigned threads) const {
-    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    return std::max(longest_, all_ / (threads > 0 ? threads : cores));
+    return std::max(longest_, all_ / threadsOf(threads));
 }
 
 }  // namespace extremal

@@ -5,19 +5,23 @@
 
 #include <cstddef>
 #include <functional>
+#include <stop_token>
 
 #include "engine/scene/write/codec.hpp"
 
 namespace extremal {
 
-/// CPU seconds of a scene of one scheme: what reading it takes, and a run. 0: it is refused.
-double secondsOfScene(const std::function<ReadScene()>& read);
+/// CPU seconds of a scene of one scheme: what reading it takes, and a run, where it is not refused.
+double secondsOfScene(const std::function<ReadScene()>& read, const std::stop_token& stop);
 
 class ExpectedTime {
 public:
     /// Runs 0..n-1 that one number changes little by little. `seconds(i)`: of CPU, of the whole run i, as
     /// some trial steps tell it; 0: it fails at once. Some are tried; between them the logarithm is linear.
     void addRuns(std::size_t n, const std::function<double(std::size_t)>& seconds);
+    /// Runs 0..n-1 that are such a series as long as `isSame(i, j)` of neighbours.
+    void addSeries(std::size_t n, const std::function<bool(std::size_t, std::size_t)>& isSame,
+                   const std::function<double(std::size_t)>& seconds);
     /// One run.
     void add(double seconds);
 

@@ -195,7 +195,7 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         if (point.step == 0 && scheme.make && !run.ownSystem) return scheme.make();
         return reference.at(point.row, scene_, run);
     };
-    progress_.announce(secondsAhead(wanted));
+    progress_.announce(secondsAhead(wanted, stop));
     const auto compute = [&](std::size_t i) {
         const StudyPoint& point = rows_[i].point;
         return runPoint(scene_, point, metric, referenceOf(point), options_.repeat, stop);
@@ -207,26 +207,25 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
 }
 
 /// Of the points of ladders, scheme by scheme.
-double Sweep::secondsAhead(const std::vector<std::size_t>& wanted) const {
-    const auto secondsOf = [&](const StudyPoint& point) {
+double Sweep::secondsAhead(const std::vector<std::size_t>& wanted, const std::stop_token& stop) const {
+    const auto pointAt = [&](std::size_t k) -> const StudyPoint& { return rows_[wanted[k]].point; };
+    const auto secondsOf = [&](std::size_t k) {
+        const StudyPoint& point = pointAt(k);
         PointResult at;
         at.step = point.step;
         at.tolerance = point.tolerance;
         at.reduction = point.reduction;
         try {
-            return secondsOfPoint(predictSeconds(scene_, schemeAt(scene_, point.scheme, at)),
-                                  options_.repeat);
+            const ResolvedScheme scheme = schemeAt(scene_, point.scheme, at);
+            return secondsOfPoint(trialSeconds(scene_, scheme, stop), options_.repeat);
         } catch (const InvalidScene&) {
-            return 0.0;
+            return 0.0;  // there is no such mesh
         }
     };
     ExpectedTime time;
-    for (std::size_t first = 0, last; first < wanted.size(); first = last) {
-        const auto schemeAtPlace = [&](std::size_t k) { return rows_[wanted[k]].point.scheme; };
-        last = first + 1;
-        while (last < wanted.size() && schemeAtPlace(last) == schemeAtPlace(first)) ++last;
-        time.addRuns(last - first, [&](std::size_t k) { return secondsOf(rows_[wanted[first + k]].point); });
-    }
+    time.addSeries(
+        wanted.size(), [&](std::size_t a, std::size_t b) { return pointAt(a).scheme == pointAt(b).scheme; },
+        secondsOf);
     return time.onThreads(options_.threads);
 }
 
@@ -362,6 +361,11 @@ void Sweep::climb(CandidateSearch& search, const std::vector<std::size_t>& wante
             take(i, std::move(result));
             if (onPoint) onPoint(i, rows_[i].result);
         });
+}
+
+bool areMeshesRefined(std::span<const SweepRow> rows) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const SweepRow& row) { return row.point.reduction.cells > 0; });
 }
 
 int cellsAt(const Sweep& sweep, const StudyPoint& point) {

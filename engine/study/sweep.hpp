@@ -127,7 +127,7 @@ public:
     bool isPreparing() const { return progress_.isPreparing(); }
 
 private:
-    double secondsAhead(const std::vector<std::size_t>& wanted) const;
+    double secondsAhead(const std::vector<std::size_t>& wanted, const std::stop_token& stop) const;
     void addOwnPoint(std::size_t scheme);
     bool refinesMesh(const ResolvedScheme& scheme) const;
     void addLadder(std::size_t scheme);
@@ -164,6 +164,8 @@ private:
     StudyProgress progress_;
 };
 
+/// Whether any has a mesh of its own, beside that of its scheme.
+bool areMeshesRefined(std::span<const SweepRow> rows);
 /// The elements of a point on a mesh; 0: their number is not a knob of its scheme.
 int cellsAt(const Sweep& sweep, const StudyPoint& point);
 

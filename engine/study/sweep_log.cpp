@@ -40,7 +40,7 @@ std::string pointLine(std::size_t index, const PointResult& r) {
             std::to_string(r.reduction.cells) + cellsText({r.reduction.solver, r.reduction.stepFactor});
     line += cellsText({r.unreducedWork, r.timesCheapest, r.excess, r.floor, r.confirmedAt});
     std::vector<double> tried;
-    for (const TriedRun& run : r.tried) tried.insert(tried.end(), {run.cpuSeconds, run.work, run.error});
+    for (const TriedRun& run : r.tried) tried.insert(tried.end(), {run.cost, run.error});
     return line + ',' + r.floorOf + ',' + withoutCommas(r.reason) + ',' + numbersText(r.errors) + ',' +
            std::to_string(r.scheme) + ',' + numbersText(tried);
 }
@@ -71,8 +71,7 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.errors = numbersIn(cells[28]);
     r.scheme = cellIndex(cells[29]);
     const std::vector<double> tried = numbersIn(cells[30]);
-    for (std::size_t i = 0; i + 2 < tried.size(); i += 3)
-        r.tried.push_back({tried[i], tried[i + 1], tried[i + 2]});
+    for (std::size_t i = 0; i + 1 < tried.size(); i += 2) r.tried.push_back({tried[i], tried[i + 1]});
     return r;
 }
 

@@ -13,28 +13,21 @@
 namespace extremal {
 namespace {
 
-double costOf(const TriedRun& run, bool isCounted) { return isCounted ? run.work : run.cpuSeconds; }
-
-TriedRun lastOf(const PointResult& r) { return {r.cpuSeconds, workOf(r, 1), r.error}; }
-
-bool isShown(const TriedRun& run, bool isCounted) {
-    return costOf(run, isCounted) > 0 && run.error > 0 && std::isfinite(run.error);
-}
-
 /// The runs of a candidate that have a place, in their order.
-std::vector<TriedRun> pathOf(const PointResult& result, bool isCounted) {
-    std::vector<TriedRun> path;
-    for (const TriedRun& run : result.tried)
-        if (isShown(run, isCounted)) path.push_back(run);
+std::vector<TriedRun> pathOf(const PointResult& result) {
+    std::vector<TriedRun> path = result.tried;
+    std::erase_if(path, [](const TriedRun& run) {
+        return !(run.cost > 0 && run.error > 0 && std::isfinite(run.error));
+    });
     return path;
 }
 
 /// Its place is where the candidate ended.
-Label reasonAt(const TriedRun& last, const std::string& label, const std::string& reason, bool isCounted) {
+Label reasonAt(const TriedRun& last, const std::string& label, const std::string& reason) {
     constexpr std::size_t most = 60;
     std::string text = label + ": " + reason;
     if (text.size() > most) text = text.substr(0, text.rfind(' ', most)) + " ...";
-    return {costOf(last, isCounted), last.error, std::move(text)};
+    return {last.cost, last.error, std::move(text)};
 }
 
 /// The line that has to be reached, with the plot cut to errors that say something.
@@ -70,10 +63,10 @@ Figure raceFigure(const Sweep& sweep) {
         s.label = spec.label;
         s.style = styleOf(spec, row.point.scheme);
         s.kind = SeriesKind::markedCurve;
-        std::vector<TriedRun> path = pathOf(r, isCounted);
-        path.push_back(lastOf(r));
+        std::vector<TriedRun> path = pathOf(r);
+        path.push_back({isCounted ? workOf(r, 1) : r.cpuSeconds, r.error});
         for (const TriedRun& run : path) {
-            s.x.push_back(costOf(run, isCounted));
+            s.x.push_back(run.cost);
             s.y.push_back(run.error);
             s.rows.push_back(static_cast<std::size_t>(&row - sweep.rows().data()));
         }
@@ -86,20 +79,20 @@ Figure raceFigure(const Sweep& sweep) {
     faint.kind = SeriesKind::marks;
     std::vector<std::pair<double, Label>> reasons;
     for (const SweepRow* row : dropped) {
-        const std::vector<TriedRun> path = pathOf(row->result, isCounted);
+        const std::vector<TriedRun> path = pathOf(row->result);
         if (path.empty()) continue;
         Guide way;
         for (const TriedRun& run : path) {
-            way.x.push_back(costOf(run, isCounted));
+            way.x.push_back(run.cost);
             way.y.push_back(run.error);
             faint.rows.push_back(static_cast<std::size_t>(row - sweep.rows().data()));
         }
         faint.x.insert(faint.x.end(), way.x.begin(), way.x.end());
         faint.y.insert(faint.y.end(), way.y.begin(), way.y.end());
         if (way.x.size() > 1) figure.add(std::move(way));
-        reasons.emplace_back(row->result.excess,
-                             reasonAt(path.back(), sweep.scene().scene.schemes[row->point.scheme].label,
-                                      row->result.reason, isCounted));
+        reasons.emplace_back(
+            row->result.excess,
+            reasonAt(path.back(), sweep.scene().scene.schemes[row->point.scheme].label, row->result.reason));
     }
     const bool areReached = !figure.series().empty();
     if (!faint.x.empty()) figure.add(std::move(faint));

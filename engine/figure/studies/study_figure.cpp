@@ -74,10 +74,8 @@ Figure convergenceFigure(const Sweep& sweep) {
         if (fit.isKnown()) s.label += ": " + shortNumber(fit.order, 3);
         figure.add(std::move(s));
     }
-    const bool isRefined = std::any_of(sweep.rows().begin(), sweep.rows().end(),
-                                       [](const SweepRow& row) { return row.point.reduction.cells > 0; });
-    figure.subtitle =
-        isRefined ? "the mesh refined with it, with the measured orders" : "with the measured orders";
+    figure.subtitle = areMeshesRefined(sweep.rows()) ? "the mesh refined with it, with the measured orders"
+                                                     : "with the measured orders";
     addOrderGuides(figure);
     finishStudyFigure(figure, "Errors against the step");
     return figure;

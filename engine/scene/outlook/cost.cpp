@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/scene/outlook/cost.hpp"
 
+#include "engine/core/problem.hpp"
 #include "engine/core/thread_clock.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/outlook/two_positions.hpp"
 
 namespace extremal {
 
-double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) {
+double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme, const std::stop_token& stop) {
     constexpr double budget = 3e-3;
     constexpr int largestBlock = 1024;
     const double start = scene.scene.start.value,
                  end = start + timeSpan(scene.scene).length();  // as much backwards
     const auto integrator =
         scheme.make(*systemOf(scene, scheme), scheme.spec.step.value, initialOf(scene, scheme));
+    integrator->setStop(stop);
     State state = schemeStart(scene, scheme, scheme.spec.step.value);
     integrator->begin(state);
     const bool isFixed = integrator->grid() == TimeGrid::fixed;
@@ -22,8 +24,9 @@ double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) 
     constexpr double longFirst = 0.1;
     if (State first = state; state.t < end) {
         const double begin = threadSeconds();
-        const auto outcome =
-            integrator->clone()->advance(first, isFixed ? nodes.at(first.node + 1) : end).outcome;
+        const auto copy = integrator->clone();
+        copy->setStop(stop);
+        const auto outcome = copy->advance(first, isFixed ? nodes.at(first.node + 1) : end).outcome;
         const double spent = threadSeconds() - begin;
         if (spent > longFirst && first.t > state.t)
             return outcome == Outcome::converged ? spent * (end - start) / (first.t - start) : 0;
@@ -33,12 +36,21 @@ double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) 
     // Blocks that double: reading the clock costs as much as a cheap step.
     for (int block = 1; block <= largestBlock && state.t < end && spent < budget; block *= 2) {
         for (int i = 0; i < block && state.t < end; ++i)
-            if (integrator->advance(state, isFixed ? nodes.at(state.node + 1) : end).outcome !=
-                Outcome::converged)
+            if (stop.stop_requested() ||
+                integrator->advance(state, isFixed ? nodes.at(state.node + 1) : end).outcome !=
+                    Outcome::converged)
                 return 0;
         spent = threadSeconds() - begin;
     }
     return state.t > start ? spent * (end - start) / (state.t - start) : 0;
+}
+
+double trialSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme, const std::stop_token& stop) {
+    try {
+        return predictSeconds(scene, scheme, stop);
+    } catch (const InvalidScene&) {
+        return 0;
+    }
 }
 
 }  // namespace extremal

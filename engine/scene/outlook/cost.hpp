@@ -2,6 +2,8 @@
 /// What a scheme will cost, from a few trial steps: for warnings beforehand, and for proposals.
 #pragma once
 
+#include <stop_token>
+
 #include "engine/model/system.hpp"
 #include "engine/scene/resolve.hpp"
 
@@ -15,7 +17,11 @@ namespace extremal {
 /// Over the 332 schemes of all presets it is within 20 % of the measured time for 88 of a hundred, within 50
 /// % for 97 and within a factor of 2 for 99; the middle of the ratios is 0.996. What costs more, or less,
 /// than at the start is missed.
-double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme);
+/// 0 as well where it was stopped, in the middle of a step if need be.
+double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme,
+                      const std::stop_token& stop = {});
+/// The same; 0 where the scheme cannot be made: a run says why.
+double trialSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme, const std::stop_token& stop);
 
 /// Of nearly all predictions: at most so many times too much or too little.
 constexpr double predictedWithin = 2;

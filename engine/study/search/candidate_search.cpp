@@ -346,7 +346,7 @@ std::vector<TriedRun> CandidateSearch::triedBy(std::size_t index) const {
         const PointResult& r = known.result;
         const bool isOfThis = std::get<0>(key) == schemes_[index].point.scheme && std::get<1>(key) == 0;
         if (!isOfThis || !r.isDone()) continue;  // what failed early cost little, and shows no error
-        all.push_back({r.cpuSeconds, costOf(schemes_[index].point, r), r.errorIn(0)});
+        all.push_back({costOf(schemes_[index].point, r), r.errorIn(0)});
     }
     return all;
 }

@@ -34,7 +34,7 @@ struct StudyPoint {
 
 /// A run that a search has made.
 struct TriedRun {
-    double cpuSeconds = 0, work = 0, error = 0;  ///< work: as workOf()
+    double cost = 0, error = 0;  ///< seconds of CPU, or where runs are not timed, evaluations
     bool operator==(const TriedRun&) const = default;
 };
 

@@ -23,7 +23,8 @@ Reduction richnessOf(const ResolvedScheme& scheme);
 /// The elements of a scheme whose space may have any number of them; 0: it has none.
 int cellsOf(const ResolvedScheme& scheme, const ResolvedScene& scene);
 
-/// The number in its space that the steps of a scheme are proportional to (StepOfSpace); 0: there is none.
+/// The number in its space that the steps of a scheme are proportional to (StepOfSpace); 0: where they are
+/// proportional to no number.
 double stepFactorOf(const ResolvedScheme& scheme, const ResolvedScene& scene);
 
 /// The scheme with another degree and number of nodes; itself where nothing is reduced. Throws

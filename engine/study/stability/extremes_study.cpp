@@ -72,14 +72,15 @@ double ExtremesStudy::secondsAhead(const std::vector<std::size_t>& wanted,
     if (wanted.empty()) return 0;
     const double judging = secondsOfJudging(rows_[wanted[wanted.size() / 2]].at, stop);
     ExpectedTime time;
-    for (std::size_t first = 0, last; first < wanted.size(); first = last) {
-        const auto caseAt = [&](std::size_t k) -> const ExtremeCase& { return rows_[wanted[k]].at; };
-        for (last = first + 1; last < wanted.size(); ++last)
-            if (caseAt(last).axis != caseAt(first).axis || caseAt(last).scheme != caseAt(first).scheme) break;
-        time.addRuns(last - first, [&](std::size_t k) {
-            return judging + secondsOfScene([&] { return readScene(caseAt(first + k).text()); });
+    const auto caseAt = [&](std::size_t k) -> const ExtremeCase& { return rows_[wanted[k]].at; };
+    time.addSeries(
+        wanted.size(),
+        [&](std::size_t a, std::size_t b) {
+            return caseAt(a).axis == caseAt(b).axis && caseAt(a).scheme == caseAt(b).scheme;
+        },
+        [&](std::size_t k) {
+            return judging + secondsOfScene([&] { return readScene(caseAt(k).text()); }, stop);
         });
-    }
     return time.onThreads(threads_);
 }
 

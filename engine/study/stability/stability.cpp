@@ -224,8 +224,9 @@ StabilityResult runStability(const Scene& scene, std::size_t scheme,
 }
 
 double secondsOfStability(const Scene& scene, std::size_t scheme,
-                          const std::vector<std::pair<std::string, double>>& changes) {
-    return secondsOfScene([&] { return readChanged(scene, scheme, changes); });
+                          const std::vector<std::pair<std::string, double>>& changes,
+                          const std::stop_token& stop) {
+    return secondsOfScene([&] { return readChanged(scene, scheme, changes); }, stop);
 }
 
 StabilityLimit findLimit(const Scene& scene, std::size_t scheme, const VariedNumber& x,

@@ -67,7 +67,8 @@ StabilityResult runStability(const Scene& scene, std::size_t scheme,
 
 /// CPU seconds that it should take.
 double secondsOfStability(const Scene& scene, std::size_t scheme,
-                          const std::vector<std::pair<std::string, double>>& changes);
+                          const std::vector<std::pair<std::string, double>>& changes,
+                          const std::stop_token& stop);
 
 struct StabilityLimit {
     double limit = StabilityResult::unknown, low = limit, high = limit;  ///< stable up to low, not at high

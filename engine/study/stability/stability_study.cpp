@@ -65,7 +65,8 @@ StabilityStudy::Result StabilityStudy::resultAt(std::size_t index, const std::st
 }
 
 /// Of the points, along x; a limit is found by some fifteen runs beside those of half its axis.
-double StabilityStudy::secondsAhead(const std::vector<std::size_t>& wanted) const {
+double StabilityStudy::secondsAhead(const std::vector<std::size_t>& wanted,
+                                    const std::stop_token& stop) const {
     constexpr double bisections = 15;
     ExpectedTime time;
     double sum = 0;
@@ -74,27 +75,26 @@ double StabilityStudy::secondsAhead(const std::vector<std::size_t>& wanted) cons
         const Row& row = rows_[wanted[k]];
         auto changes = changesAt(row.y);
         changes.emplace_back(options_.x.pointer, row.x);
-        const double seconds = secondsOfStability(scene_.scene, row.scheme, changes);
+        const double seconds = secondsOfStability(scene_.scene, row.scheme, changes, stop);
         sum += seconds;
         ++points;
         return seconds;
     };
-    const auto isLimit = [&](std::size_t k) { return wanted[k] >= rows_.size(); };
-    for (std::size_t first = 0, last; first < wanted.size() && !isLimit(first); first = last) {
-        for (last = first + 1; last < wanted.size() && !isLimit(last); ++last)
-            if (rows_[wanted[last]].scheme != rows_[wanted[first]].scheme) break;
-        time.addRuns(last - first, [&](std::size_t k) { return secondsOf(first + k); });
-    }
+    const auto isLimit = [&](std::size_t index) { return index >= rows_.size(); };
+    const auto limits = static_cast<std::size_t>(std::count_if(wanted.begin(), wanted.end(), isLimit));
+    time.addSeries(
+        wanted.size() - limits,
+        [&](std::size_t a, std::size_t b) { return rows_[wanted[a]].scheme == rows_[wanted[b]].scheme; },
+        secondsOf);
     const double runs = bisections + 0.5 * static_cast<double>(options_.x.values().size());
-    for (std::size_t k = 0; k < wanted.size() && points > 0; ++k)
-        if (isLimit(k)) time.add(runs * sum / static_cast<double>(points));
+    for (std::size_t k = 0; k < limits && points > 0; ++k) time.add(runs * sum / static_cast<double>(points));
     return time.onThreads(options_.threads);
 }
 
 void StabilityStudy::run(const std::function<void(std::size_t)>& onPoint, const std::stop_token& stop) {
     const auto wanted = wantedPoints(size(), options_.shard, [&](std::size_t i) { return isKnown(i); });
     progress_.begin();
-    progress_.announce(secondsAhead(wanted));
+    progress_.announce(secondsAhead(wanted, stop));
     const auto compute = [&](std::size_t i) { return resultAt(i, stop); };
     progress_.run(wanted, options_.threads, stop, compute, [&](std::size_t i, const Result& result) {
         take(i, result);

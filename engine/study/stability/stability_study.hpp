@@ -69,7 +69,7 @@ public:
 private:
     std::vector<std::pair<std::string, double>> changesAt(double y) const;
     bool isKnown(std::size_t index) const;
-    double secondsAhead(const std::vector<std::size_t>& wanted) const;
+    double secondsAhead(const std::vector<std::size_t>& wanted, const std::stop_token& stop) const;
     Result resultAt(std::size_t index, const std::stop_token& stop) const;
 
     ResolvedScene scene_;

@@ -14,9 +14,8 @@ namespace {
 
 /// Of the time alone; where the mesh is refined with the step, of the space as well.
 int claimedOrder(const ResolvedScheme& scheme, std::span<const SweepRow> rows) {
-    const bool isOfMesh = std::any_of(rows.begin(), rows.end(),
-                                      [](const SweepRow& row) { return row.point.reduction.cells > 0; });
-    return isOfMesh ? std::min(scheme.claims.order, scheme.orderInSpace()) : scheme.claims.order;
+    return areMeshesRefined(rows) ? std::min(scheme.claims.order, scheme.orderInSpace())
+                                  : scheme.claims.order;
 }
 
 std::vector<Value::Array> rowsOf(const Sweep& sweep) {

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/core/text/text.hpp"
 #include "engine/figure/studies/study_figure.hpp"
+#include "engine/scene/outlook/cost.hpp"
 #include "engine/scene/preset.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/convergence.hpp"
@@ -175,6 +177,16 @@ private slots:
         QVERIFY(std::abs(time.onThreads(1) / all - 1) < 1e-12);
         QVERIFY(std::abs(time.onThreads(2) / seconds(10) - 1) < 1e-12);  // the longest run alone
         QVERIFY(std::abs(time.onThreads(1000) / seconds(10) - 1) < 1e-12);
+    }
+    /// A step of thirty-six unknowns without a second derivative takes minutes, in a trial as well.
+    void aTrialStopsInTheMiddleOfAStep() {
+        const ResolvedScene scene = *readScene(std::string_view(R"({"extremal":1,"model":
+            {"type":"outer-solar-system"},"time":{"end":20000},
+            "schemes":[{"step":2000,"baseline":"time-transformed"}]})"))
+                                         .resolved;
+        std::stop_source source;
+        source.request_stop();
+        QCOMPARE(trialSeconds(scene, scene.schemes.front(), source.get_token()), 0.0);
     }
     void studiesAnnounceTheirTime() {
         Sweep ladder(planetScene(), untimed());
