@@ -16,6 +16,7 @@
 #include "engine/family/parts/nodes.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/family/parts/scheme_identity.hpp"
+#include "engine/family/parts/smaller_spaces.hpp"
 #include "engine/family/parts/steps.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/spectral_field/spectral_step.hpp"
@@ -197,6 +198,15 @@ std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
     return own;
 }
 
+/// On the line, where the modes are the scheme's own.
+std::vector<SmallerSpace> fewerModes(const Settings& space, const Settings& model) {
+    if (!modelOf(space, model)) return {};
+    const int whole = space.find("modes") ? space.integer("modes") : model.integer("cells");
+    return thinnedSpaces(space, "modes", whole, leastModes, 2);
+}
+
+std::string textOfModes(const Settings& space) { return std::to_string(space.integer("modes")) + " modes"; }
+
 ChoiceGrid choices(const System& system) {
     ChoiceGrid grid;
     grid.subtitle = "nodes × degree in time";
@@ -268,6 +278,7 @@ Family spectral_field() {
     f.parts.set(SystemCondition{isSpectral});
     f.parts.set(SchemeCondition{mismatchOf});
     f.parts.set(OwnMesh{modelOf});
+    f.parts.set(SmallerSpaces{"modes", fewerModes, textOfModes});
     f.parts.set(SlowestStep{[](const SchemeCase& scheme) {
         return 5e-3 *
                std::max(1.0, spectralDomainOf(scheme.system).nx * spectralDomainOf(scheme.system).ny / 256.0);

@@ -6,14 +6,17 @@
 #include <optional>
 #include <string>
 
+#include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/parts/advice.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/family/parts/described_on_system.hpp"
+#include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/nodes.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/family/parts/scheme_identity.hpp"
+#include "engine/family/parts/smaller_spaces.hpp"
 #include "engine/family/parts/solver_methods.hpp"
 #include "engine/family/parts/starts.hpp"
 #include "engine/family/parts/steps.hpp"
@@ -25,10 +28,21 @@
 #include "engine/family/wave/wave_three_level.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/model/wave/interaction.hpp"
+#include "engine/model/wave/start/cloud.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal::family {
 namespace {
+
+constexpr int leastModes = 8;
+
+FieldInfo ownModes() {
+    FieldInfo modes = integerField("modes", "N", leastModes, 65536, nullptr,
+                                   "Number of modes of this scheme alone, even on a periodic domain; over a "
+                                   "rectangle along x, along y in proportion; default: those of the model.");
+    modes.isOptional = true;
+    return modes;
+}
 
 /// Fourier in space, polynomials of one degree in time.
 SpaceEntry fourier() {
@@ -49,7 +63,8 @@ SpaceEntry fourier() {
                            "One step with its own momentum, or the three levels of the discrete "
                            "Euler-Lagrange equations (degree 1)."),
                choiceField("start", "start", {"gauss", "variational", "exact"},
-                           "First step of the three-level form.")},
+                           "First step of the three-level form."),
+               ownModes()},
               {},
               "a wave function"};
     return e;
@@ -69,7 +84,7 @@ SpaceEntry spaceTime() {
                choiceField("time_basis", "time basis", {"legendre", "chebyshev"},
                            "legendre: from the action, at Gauss nodes; chebyshev: collocation at the "
                            "Chebyshev roots."),
-               integerField("slabs", "", 1, 1024, 1, "Equal slabs in one step.")},
+               integerField("slabs", "", 1, 1024, 1, "Equal slabs in one step."), ownModes()},
               {},
               "a wave function"};
     return e;
@@ -176,6 +191,44 @@ ReferencePlan trusted(const System& system, const State& start, double duration)
                        withShift(*namedScheme("schrodinger-gauss-8"), system, start));
 }
 
+/// N even, and at least as many as the model may have.
+int evenModes(double modes) { return std::max(leastModes, 2 * static_cast<int>(std::round(modes / 2))); }
+
+/// The model with the modes of the space.
+std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
+    if (!space.find("modes")) return {};
+    const double modes = space.integer("modes"), part = modes / model.integer("modes");
+    Settings own = model;
+    for (auto& [key, value] : own.keys) {
+        if (key == "modes") value = modes;
+        if (key == "modes_y") value = static_cast<double>(evenModes(part * model.integer("modes_y")));
+    }
+    return own;
+}
+
+/// The function of the scene at the nodes of the space; a state that belongs to its modes has none.
+State ownStart(const System& system, Discretization& d, const Settings& initial, double t) {
+    const Value* const psi = initial.find("psi");
+    const Value* const name = psi ? psi->find("packet") : nullptr;
+    const bool isOfModes =
+        psi && (psi->find("values") || wave::isAtRest(*psi) || (name && *name == Value("eigenstate")));
+    if (isOfModes && d.space.find("modes"))
+        throw InvalidScene("/modes",
+                           "the scene starts from a state of its own modes, which is known on no others",
+                           "no modes here, or a packet that is a function of x");
+    return {t, 0, system.start(initial, t), {}};
+}
+
+std::vector<SmallerSpace> fewerModes(const Settings& space, const Settings& model) {
+    const int whole = space.find("modes") ? space.integer("modes") : model.integer("modes");
+    return thinnedSpaces(space, "modes", whole, leastModes, 2);
+}
+
+/// 0: those of the model.
+int modesIn(const Settings& space) { return space.find("modes") ? space.integer("modes") : 0; }
+
+std::string textOfModes(const Settings& space) { return std::to_string(space.integer("modes")) + " modes"; }
+
 ChoiceGrid choices(const System& system) {
     const bool isPeriodic = !hasDirichletBoundary(system);
     const auto row = [&](int degree, const char* form) -> SpaceRow {
@@ -236,6 +289,9 @@ Family wave() {
     f.parts.set(NodesAlone{});
     f.parts.set(SchemeCondition{mismatchOf});
     f.parts.set(StartEstimate{withShift});
+    f.parts.set(OwnMesh{modelOf});
+    f.parts.set(OwnStart{ownStart});
+    f.parts.set(SmallerSpaces{"modes", fewerModes, textOfModes});
     f.parts.set(
         DescribedOnSystem{[](const Discretization& d, const System& system) -> std::optional<Properties> {
             if (!isCoupled(system.parts)) return {};
@@ -255,7 +311,8 @@ Family wave() {
         return a.space.type == b.space.type && a.space.integer("degree") == b.space.integer("degree") &&
                a.space.text("form") == b.space.text("form") &&
                a.space.text("time_basis") == b.space.text("time_basis") &&
-               a.space.integer("slabs") == b.space.integer("slabs") && a.quadrature == b.quadrature;
+               a.space.integer("slabs") == b.space.integer("slabs") && modesIn(a.space) == modesIn(b.space) &&
+               a.quadrature == b.quadrature;
     }});
     return f;
 }

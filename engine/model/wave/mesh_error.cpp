@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/wave/mesh_error.hpp"
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "engine/core/problem.hpp"
 #include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/start/cloud.hpp"
 #include "engine/model/wave/start/packet.hpp"
+#include "engine/model/wave/resampling.hpp"
 
 namespace extremal {
 namespace {
@@ -20,59 +18,6 @@ using Shared = std::shared_ptr<const Hamiltonian>;
 using Coefficients = std::vector<Complex>;
 
 constexpr int meshSamples = 101;  ///< of a run
-
-/// Coefficients on a finer mesh of the same domain that are the same function.
-class Embedding {
-public:
-    Embedding(const Hamiltonian& from, const Hamiltonian& to) : size_(static_cast<std::size_t>(to.size())) {
-        if (from.isPeriodic()) {
-            const Fourier &low = from.fourier(), &high = to.fourier();
-            for (int i = 0; i < from.size(); ++i)
-                place_.push_back(high.placeOf(low.number(i), low.numberY(i)));
-            return;
-        }
-        // By the Chebyshev series of each polynomial, at the nodes of the finer mesh.
-        const int n = from.size();
-        matrix_.resize(to.size(), n);
-        Coefficients unit(static_cast<std::size_t>(n)), values(size_), c(size_);
-        for (int j = 0; j < n; ++j) {
-            std::fill(unit.begin(), unit.end(), 0);
-            unit[static_cast<std::size_t>(j)] = 1;
-            std::vector<double> series;
-            for (int k = 0; k <= n + 1; ++k)
-                series.push_back(from.dirichletBasis().chebyshevCoefficient(unit.data(), k).real());
-            for (std::size_t i = 0; i < size_; ++i) {
-                const double y = 2 * (to.x()[i] - to.domain().left) / to.domain().length - 1;
-                values[i] = seriesAt(series, std::clamp(y, -1.0, 1.0));
-            }
-            to.toCoefficients(values.data(), c.data());
-            for (std::size_t i = 0; i < size_; ++i) matrix_(static_cast<Eigen::Index>(i), j) = c[i].real();
-        }
-    }
-    Coefficients operator()(const Complex* c) const {
-        Coefficients all(size_);
-        for (std::size_t i = 0; i < place_.size(); ++i) all[static_cast<std::size_t>(place_[i])] = c[i];
-        if (place_.empty())
-            Eigen::Map<Eigen::VectorXcd>(all.data(), matrix_.rows()) =
-                matrix_ * Eigen::Map<const Eigen::VectorXcd>(c, matrix_.cols());
-        return all;
-    }
-
-private:
-    /// sum a_k T_k(y), by Clenshaw's recurrence.
-    static double seriesAt(const std::vector<double>& a, double y) {
-        double one = 0, two = 0;
-        for (std::size_t k = a.size(); k-- > 1;) {
-            const double next = a[k] + 2 * y * one - two;
-            two = one;
-            one = next;
-        }
-        return a[0] + y * one - two;
-    }
-    std::size_t size_;
-    std::vector<int> place_;
-    Eigen::MatrixXd matrix_;
-};
 
 double differenceOf(const Coefficients& a, const Coefficients& b) {
     double sum = 0;
@@ -108,7 +53,7 @@ public:
 
     /// The largest distance of the motions on two meshes, the coarse one first.
     double between(const Shared& coarse, const State& low, const Shared& fine, const State& high) const {
-        const Embedding embed(*coarse, *fine);
+        const WaveResampling embed(*coarse, *fine);
         const ExactSolution a = exactWave(coarse, low), b = exactWave(fine, high);
         std::vector<double> x(low.x.size());
         Coefficients y(static_cast<std::size_t>(fine->size()));
@@ -122,7 +67,7 @@ public:
     }
     double againstFiner(const Shared& fine) const {
         Coefficients start = startOn(fine, run_.given);
-        if (start.empty()) start = Embedding(*h_, *fine)(coefficients(initial_.x.data()));
+        if (start.empty()) start = WaveResampling(*h_, *fine)(coefficients(initial_.x.data()));
         return between(h_, initial_, fine, stateOf(initial_.t, start));
     }
     double againstCoarser(const Shared& coarse) const {
@@ -131,7 +76,7 @@ public:
     }
     /// By the trapezoidal rule over the run.
     double boundBy(const Shared& fine, const ExactSolution& motion) const {
-        const Embedding embed(*h_, *fine);
+        const WaveResampling embed(*h_, *fine);
         const auto n = static_cast<std::size_t>(h_->size()), m = static_cast<std::size_t>(fine->size());
         Coefficients low(n), high(m), workLow(n), workHigh(m);
         std::vector<double> V(n), fineV(m);

@@ -9,10 +9,12 @@
 
 #include "engine/core/text/text.hpp"
 #include "engine/model/parts/coefficient_sizes.hpp"
+#include "engine/model/parts/on_other_mesh.hpp"
 #include "engine/model/parts/potential_levels.hpp"
 #include "engine/model/parts/premise_check.hpp"
 #include "engine/model/wave/levels.hpp"
 #include "engine/model/wave/mesh_error.hpp"
+#include "engine/model/wave/resampling.hpp"
 #include "engine/model/wave/start/packet.hpp"
 #include "engine/model/wave/spectrum.hpp"
 
@@ -119,7 +121,14 @@ PotentialLevels levelsOf(const SharedHamiltonian& h) {
 
 }  // namespace
 
-void addWaveParts(System& system, const SharedHamiltonian& h) { system.parts.set(sizesOf(h)); }
+void addWaveParts(System& system, const SharedHamiltonian& h) {
+    system.parts.set(sizesOf(h));
+    system.parts.set(OnOtherMesh{[h](const System& other) -> OnOtherMesh::Map {
+        return [to = WaveResampling(*h, *other.hamiltonian())](const double* x, double* own) {
+            to.write(coefficients(x), coefficients(own));
+        };
+    }});
+}
 
 void addLinearWaveParts(System& system, const SharedHamiltonian& h) {
     system.parts.set(levelsOf(h));

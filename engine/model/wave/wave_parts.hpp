@@ -10,7 +10,7 @@
 
 namespace extremal {
 
-/// Adds CoefficientSizes of model/parts.
+/// Adds CoefficientSizes and OnOtherMesh of model/parts.
 void addWaveParts(System& system, const std::shared_ptr<const Hamiltonian>& hamiltonian);
 /// Adds what linear equations have besides: PotentialLevels, PremiseCheck and MeshError.
 void addLinearWaveParts(System& system, const std::shared_ptr<const Hamiltonian>& hamiltonian);

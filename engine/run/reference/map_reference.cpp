@@ -70,8 +70,12 @@ void MapReference::share(const ResolvedScene& resolved, const std::vector<double
 
 ExactSolution MapReference::at(std::size_t row, const ResolvedScene& resolved,
                                const ResolvedScheme& scheme) const {
-    if (row < tables_.size()) return scheme.ownSystem ? ExactSolution{} : atNodes(row);
-    const Reference own = referenceFor(reference_, resolved, scheme);
+    Reference table;
+    if (row < tables_.size()) {
+        table.info = reference_.info;
+        table.make = [solution = atNodes(row)] { return solution; };
+    }
+    const Reference own = referenceFor(table.make ? table : reference_, resolved, scheme);
     return own.make ? own.make() : ExactSolution{};
 }
 

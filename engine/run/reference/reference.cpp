@@ -15,6 +15,7 @@
 #include "engine/family/parts/nodes.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/model/parts/mesh_error.hpp"
+#include "engine/model/parts/on_other_mesh.hpp"
 #include "engine/model/typed/branches.hpp"
 #include "engine/run/reference/exact_reference.hpp"
 #include "engine/run/reference/members.hpp"
@@ -312,6 +313,18 @@ std::function<ExactSolution()> runOf(const ResolvedScheme& companion, const Reso
         start, resolved.scene.end.value, counts);
 }
 
+/// A solution of a system, as states of the same on another mesh.
+ExactSolution mapped(ExactSolution solution, OnOtherMesh::Map map, std::size_t width) {
+    const auto shared = std::make_shared<ExactSolution>(std::move(solution));
+    ExactSolution other = [shared, map = std::move(map), x = std::vector<double>(width)](
+                              double t, std::span<double> own) mutable {
+        (*shared)(t, x);
+        map(x.data(), own.data());
+    };
+    other.setCheckpoint([shared](Archive& archive) { shared->checkpoint(archive); });
+    return other;
+}
+
 }  // namespace
 
 Reference companionReference(const ResolvedScene& resolved, const ResolvedScheme& scheme,
@@ -339,6 +352,12 @@ Reference referenceFor(const Reference& reference, const ResolvedScene& resolved
                        const ResolvedScheme& scheme) {
     if (!scheme.ownSystem || !reference.make) return reference;
     Reference own{reference.info, {}};
+    if (const auto* const other = resolved.system->parts.find<OnOtherMesh>()) {
+        // What is exact there is so for its own modes, and says nothing of those that it leaves out.
+        own.make = [make = reference.make, map = other->to(*scheme.ownSystem),
+                    width = resolved.initial.x.size()] { return mapped(make(), map, width); };
+        return own;
+    }
     if (reference.onMesh.system)
         own.make = [mesh = reference.onMesh, system = scheme.ownSystem] { return mesh.on(system); };
     if (reference.info.type == "exact")

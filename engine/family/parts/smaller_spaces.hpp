@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The part of families whose spaces have more to leave out than a degree: modes, harmonics, moving nodes.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "engine/core/settings.hpp"
+#include "engine/model/parts.hpp"
+
+namespace extremal {
+
+struct SmallerSpace {
+    Settings space;
+    double share = 1;  ///< of the unknowns of the whole space that it keeps
+};
+
+/// Spaces with fewer functions, for a search of what a scene needs. Without it the degree is all that there
+/// is to leave out.
+struct SmallerSpaces {
+    static constexpr PartInfo part{"smaller-spaces", "spaces with fewer functions", false};
+    const char* knob = "";  ///< what is left out, as a name among the knobs of a search: "modes"
+    /// From the largest down, at most 20; empty: nothing can be left out.
+    std::vector<SmallerSpace> (*of)(const Settings& space, const Settings& model) = nullptr;
+    /// What such a space has, in words: "48 modes".
+    std::string (*text)(const Settings& space) = nullptr;
+};
+
+/// With the whole number `key` at 4/5 of `whole`, at 4/5 of that and so on, rounded to multiples of
+/// `multiple`, eight times or down to `least`.
+inline std::vector<SmallerSpace> thinnedSpaces(const Settings& space, const char* key, int whole, int least,
+                                               int multiple) {
+    constexpr int most = 8;
+    constexpr double part = 0.8;
+    std::vector<SmallerSpace> all;
+    for (int count = whole; static_cast<int>(all.size()) < most;) {
+        count = static_cast<int>(std::floor(part * count / multiple)) * multiple;
+        if (count < least) break;
+        SmallerSpace smaller{space, static_cast<double>(count) / whole};
+        bool isThere = false;
+        for (auto& [name, value] : smaller.space.keys)
+            if (name == key) value = static_cast<double>(count), isThere = true;
+        if (!isThere) smaller.space.keys.emplace_back(key, static_cast<double>(count));
+        all.push_back(std::move(smaller));
+    }
+    return all;
+}
+
+}  // namespace extremal
