@@ -169,9 +169,21 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
     const std::vector<std::size_t> wanted = wantedPoints(rows_.size(), options_.shard, [&](std::size_t i) {
         return rows_[i].result.status != RunStatus::waiting;
     });
-    if (wanted.empty()) return;
-    progress_.begin();
-    if (isSearch()) return runSearch(wanted, onReference, onPoint, stop);
+    if (!wanted.empty()) {
+        progress_.begin();
+        if (isSearch())
+            runSearch(wanted, onReference, onPoint, stop);
+        else
+            runPoints(wanted, onReference, onPoint, stop);
+    }
+    if (!options_.rungs.empty() && isComplete() && !stop.stop_requested())
+        terms_ = termCosts(scene_, metric(), stop);
+}
+
+void Sweep::runPoints(const std::vector<std::size_t>& wanted,
+                      const std::function<void(const ReferenceInfo&)>& onReference,
+                      const std::function<void(std::size_t, const PointResult&)>& onPoint,
+                      const std::stop_token& stop) {
     MapReference reference;
     Reference scheme;  // what adaptive runs, whose nodes no table has, are compared with
     Metric metric = metrics_.front();

@@ -25,6 +25,7 @@
 #include "engine/study/search/metric.hpp"
 #include "engine/study/search/point.hpp"
 #include "engine/study/search/search_cases.hpp"
+#include "engine/study/search/term_costs.hpp"
 #include "engine/study/wish.hpp"
 
 namespace extremal {
@@ -101,6 +102,9 @@ public:
     const std::vector<SweepRow>& rows() const { return rows_; }
     const ReferenceInfo& reference() const { return reference_; }
     bool belongsHere(std::size_t point) const { return options_.shard.has(point); }
+    /// Of a ladder of wishes that is complete: what each term of the formula costs to leave out; of formulas
+    /// without terms, and of others, empty.
+    const std::vector<TermCost>& terms() const { return terms_; }
     /// Whether every point, of all shards, is known.
     bool isComplete() const;
 
@@ -143,6 +147,10 @@ private:
                                    const std::vector<Metric>& metrics, const std::vector<double>& wishes,
                                    const SearchReference& reference, double seconds,
                                    const std::stop_token& stop) const;
+    void runPoints(const std::vector<std::size_t>& wanted,
+                   const std::function<void(const ReferenceInfo&)>& onReference,
+                   const std::function<void(std::size_t, const PointResult&)>& onPoint,
+                   const std::stop_token& stop);
     void runSearch(const std::vector<std::size_t>& wanted,
                    const std::function<void(const ReferenceInfo&)>& onReference,
                    const std::function<void(std::size_t, const PointResult&)>& onPoint,
@@ -159,7 +167,8 @@ private:
     double metricSize_ = std::numeric_limits<double>::infinity();  ///< of the first metric
     std::vector<SweepRow> rows_;
     std::vector<SweepRow> searched_;  ///< of a ladder of wishes: the schemes that it is climbed with
-    std::vector<double> steps_;       ///< that the reference must know: a row of it each
+    std::vector<TermCost> terms_;
+    std::vector<double> steps_;  ///< that the reference must know: a row of it each
     ReferenceInfo reference_;
     StudyProgress progress_;
 };

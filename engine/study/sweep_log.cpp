@@ -37,16 +37,18 @@ std::string pointLine(std::size_t index, const PointResult& r) {
         line += ',' + std::to_string(value);
     line += cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
     line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes) + ',' +
-            std::to_string(r.reduction.cells) + cellsText({r.reduction.solver, r.reduction.stepFactor});
+            std::to_string(r.reduction.cells) + cellsText({r.reduction.solver, r.reduction.stepFactor}) +
+            ',' + std::to_string(r.reduction.smaller);
     line += cellsText({r.unreducedWork, r.timesCheapest, r.excess, r.floor, r.confirmedAt});
     std::vector<double> tried;
-    for (const TriedRun& run : r.tried) tried.insert(tried.end(), {run.cost, run.error});
+    for (const TriedRun& run : r.tried)
+        tried.insert(tried.end(), {run.cost, run.error, run.steps, static_cast<double>(run.cells)});
     return line + ',' + r.floorOf + ',' + withoutCommas(r.reason) + ',' + numbersText(r.errors) + ',' +
            std::to_string(r.scheme) + ',' + numbersText(tried);
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
-    if (cells.size() != 31) return {};
+    if (cells.size() != 32) return {};
     PointResult r;
     r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
     r.cause = outcomeOf(cells[3]);
@@ -59,19 +61,24 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.predictedSeconds = cellNumber(cells[13]);
     r.step = cellNumber(cells[14]);
     r.tolerance = cellNumber(cells[15]);
-    r.reduction = {static_cast<int>(count(cells[16])), static_cast<int>(count(cells[17])),
-                   static_cast<int>(count(cells[18])), cellNumber(cells[19]), cellNumber(cells[20])};
-    r.unreducedWork = cellNumber(cells[21]);
-    r.timesCheapest = cellNumber(cells[22]);
-    r.excess = cellNumber(cells[23]);
-    r.floor = cellNumber(cells[24]);
-    r.confirmedAt = cellNumber(cells[25]);
-    r.floorOf = cells[26];
-    r.reason = withCommas(cells[27]);
-    r.errors = numbersIn(cells[28]);
-    r.scheme = cellIndex(cells[29]);
-    const std::vector<double> tried = numbersIn(cells[30]);
-    for (std::size_t i = 0; i + 1 < tried.size(); i += 2) r.tried.push_back({tried[i], tried[i + 1]});
+    r.reduction = {static_cast<int>(count(cells[16])),
+                   static_cast<int>(count(cells[17])),
+                   static_cast<int>(count(cells[18])),
+                   cellNumber(cells[19]),
+                   cellNumber(cells[20]),
+                   static_cast<int>(count(cells[21]))};
+    r.unreducedWork = cellNumber(cells[22]);
+    r.timesCheapest = cellNumber(cells[23]);
+    r.excess = cellNumber(cells[24]);
+    r.floor = cellNumber(cells[25]);
+    r.confirmedAt = cellNumber(cells[26]);
+    r.floorOf = cells[27];
+    r.reason = withCommas(cells[28]);
+    r.errors = numbersIn(cells[29]);
+    r.scheme = cellIndex(cells[30]);
+    const std::vector<double> tried = numbersIn(cells[31]);
+    for (std::size_t i = 0; i + 3 < tried.size(); i += 4)
+        r.tried.push_back({tried[i], tried[i + 1], tried[i + 2], static_cast<int>(tried[i + 3])});
     return r;
 }
 

@@ -6,6 +6,7 @@
 #include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/nodes.hpp"
 #include "engine/family/parts/scheme_identity.hpp"
+#include "engine/family/parts/smaller_spaces.hpp"
 #include "engine/family/parts/solver_methods.hpp"
 #include "engine/family/parts/starts.hpp"
 #include "engine/family/parts/steps.hpp"
@@ -31,11 +32,11 @@ namespace {
 
 /// With more, round-off in the places of the nodes, eps |X| / h, is no longer small beside the accuracy to
 /// which the constraint is solved, and a scene is no longer checked at once.
-constexpr int mostNodes = 100000;
+constexpr int mostNodes = 100000, fewestNodes = 3;
 
 SpaceEntry movingMeshSpace() {
     SpaceEntry e;
-    FieldInfo nodes = integerField("nodes", "N", 3, mostNodes, nullptr,
+    FieldInfo nodes = integerField("nodes", "N", fewestNodes, mostNodes, nullptr,
                                    "Number of nodes that move, between the two ends; default: one less than "
                                    "the cells of the model.");
     nodes.isOptional = true;
@@ -346,6 +347,13 @@ Family moving_mesh() {
     f.parts.set(SchemeCondition{mismatchOf});
     f.parts.set(OwnMesh{modelOf});
     f.parts.set(OwnStart{startOf});
+    f.parts.set(SmallerSpaces{
+        "mesh-nodes",
+        [](const Settings& space, const Settings& model) {
+            const int whole = space.find("nodes") ? space.integer("nodes") : model.integer("cells") - 1;
+            return thinnedSpaces(space, "nodes", whole, fewestNodes, 1);
+        },
+        [](const Settings& space) { return std::to_string(space.integer("nodes")) + " moving nodes"; }});
     f.parts.set(Variant{});
     f.parts.set(OwnTimeGrid{
         [](const Settings& space) { return hasEnergyTimes(space) ? TimeGrid::free : TimeGrid::fixed; }});

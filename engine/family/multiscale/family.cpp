@@ -9,6 +9,7 @@
 #include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/multiscale/basis.hpp"
+#include "engine/family/multiscale/fewer_harmonics.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/family/multiscale/product.hpp"
 #include "engine/family/multiscale/resonance.hpp"
@@ -204,6 +205,7 @@ Family multiscale() {
         return isProduct(space) ? completeProductRule(space, quadrature)
                                 : completeOscillatoryRule(space, quadrature);
     };
+    f.parts.set(SmallerSpaces{"harmonics", fewerHarmonics, textOfHarmonics});
     f.describe = [](const Discretization& d) {
         if (isSlow(d.space)) return describeSlow(d.space, d.quadrature);
         return isProduct(d.space) ? describeProduct(d.space, d.quadrature)

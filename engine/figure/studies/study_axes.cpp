@@ -9,15 +9,11 @@
 
 namespace extremal {
 
-namespace {
-
 std::string errorTitle(const Sweep& sweep) {
     const std::string symbol = sweep.metric().title();
     const std::string size = symbol.starts_with("|") ? symbol : "|" + symbol + "|";
     return axisTitle(sweep.metric().isAtEnd ? size + " at the end" : "max " + size, sweep.metric().unit());
 }
-
-}  // namespace
 
 Figure studyFigureStart(const Sweep& sweep, const char* view, const char* title) {
     Figure figure;

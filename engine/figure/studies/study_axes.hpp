@@ -10,6 +10,9 @@
 
 namespace extremal {
 
+/// Title of the errors of a sweep, with its unit.
+std::string errorTitle(const Sweep& sweep);
+
 /// Without series: the errors of the sweep's metric upwards, what the reference does not resolve as a band,
 /// and round-off.
 Figure studyFigureStart(const Sweep& sweep, const char* view, const char* title);

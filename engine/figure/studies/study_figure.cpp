@@ -8,9 +8,11 @@
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/fit_axes.hpp"
+#include "engine/figure/studies/mesh_figure.hpp"
 #include "engine/figure/studies/race_figure.hpp"
 #include "engine/figure/studies/region_figure.hpp"
 #include "engine/figure/studies/study_axes.hpp"
+#include "engine/figure/studies/term_figure.hpp"
 #include "engine/run/reference/error_floor.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/study/catalog.hpp"
@@ -370,6 +372,15 @@ Figure studyFigure(std::string_view study, const LimitsStudy& limits) {
     if (!(right > 0)) figure.message = "No point has a result";
     figure.summary = "Usable steps of " + std::to_string(limits.rows().size()) + " schemes.";
     return figure;
+}
+
+std::vector<Figure> studyFigures(std::string_view study, const Sweep& sweep) {
+    std::vector<Figure> all{studyFigure(study, sweep)};
+    if (sweep.options().wantedError > 0)
+        if (std::optional<Figure> plane = meshFigure(sweep)) all.push_back(std::move(*plane));
+    if (!sweep.terms().empty())
+        all.push_back(termFigure(sweep.terms(), errorTitle(sweep), sweep.options().rungs));
+    return all;
 }
 
 std::vector<Figure> studyFigures(std::string_view study, const LinearStudy& linear) {

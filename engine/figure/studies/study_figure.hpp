@@ -48,6 +48,9 @@ template <class Study>
 std::vector<Figure> studyFigures(std::string_view study, const Study& work) {
     return {studyFigure(study, work)};
 }
+/// Of a search with steps and elements, with the plane of both; of what a scene needs, with the costs of the
+/// terms of its formula.
+std::vector<Figure> studyFigures(std::string_view study, const Sweep& sweep);
 /// With the regions of stability.
 std::vector<Figure> studyFigures(std::string_view study, const LinearStudy& linear);
 

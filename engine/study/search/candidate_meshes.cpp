@@ -31,8 +31,17 @@ double CandidateSearch::costOf(const StudyPoint& own, const PointResult& result)
     const ResolvedScheme& scheme = scene_.schemes[own.scheme];
     const int nodes = richnessOf(schemeAt(scene_, own.scheme, result)).nodes;
     double times = 1;
-    if (const auto size = static_cast<double>(scene_.initial.x.size()); scheme.ownSystem && size > 0)
-        times = static_cast<double>(scheme.ownInitial.x.size()) / size;
+    const auto unknowns = [&](const ResolvedScheme& of) {
+        return static_cast<double>(of.ownInitial.x.size());
+    };
+    if (const auto size = static_cast<double>(scene_.initial.x.size()); size > 0) {
+        if (own.reduction.smaller > 0) {
+            const ResolvedScheme smaller = extremal::schemeOf(scene_, own);
+            if (smaller.ownSystem) times = unknowns(smaller) / size;
+        } else if (scheme.ownSystem) {
+            times = unknowns(scheme) / size;
+        }
+    }
     if (const int cells = own.reduction.cells; cells > 0) times *= cells / double(cellsOf(scheme, scene_));
     return times * workOf(result, nodes);
 }

@@ -193,52 +193,6 @@ const PointResult& CandidateSearch::knownAt(const StudyPoint& point, double n) c
     return known_.at(keyOf(point, n)).result;
 }
 
-/// The fewest evaluations among smaller degrees and numbers of nodes, with the steps with which they could be
-/// cheaper.
-void CandidateSearch::reduce(std::size_t index, std::span<const double> wishes, PointResult& result) {
-    const ResolvedScheme& whole = schemeOf(index);
-    const Reduction has = richnessOf(whole);
-    if (!has || isTimeUp()) return;
-    std::vector<StudyPoint> points{schemes_[index].point};
-    std::vector<ResolvedScheme> variants{whole};
-    std::vector<RaceEntry> entries(1);
-    // Not every scheme takes as many steps as the run was asked for.
-    const auto found = std::find_if(known_.begin(), known_.end(), [&](const auto& known) {
-        const auto& [scheme, degree, nodes, cells, asked] = known.first;
-        return scheme == points[0].scheme && degree == 0 && nodes == 0 && cells == 0 &&
-               known.second.result.step == result.step && known.second.result.tolerance == result.tolerance;
-    });
-    if (found == known_.end()) return;
-    const double n = std::get<4>(found->first), cost = found->second.cost;
-    entries[0].isSingle = true;
-    entries[0].firstN = n;
-    for (const Reduction& reduction : reductionsOf(whole, scene_)) {
-        StudyPoint less = schemes_[index].point;
-        less.reduction = reduction;
-        points.push_back(less);
-        variants.push_back(extremal::schemeOf(scene_, less));
-        RaceEntry entry;
-        entry.order = std::max(1, variants.back().claims.order);
-        entry.firstN = n;
-        entry.firstCost = cost * reduction.nodes / has.nodes;
-        // With more steps it could not be cheaper, even if its nodes took half as many evaluations.
-        entry.mostN = 2 * n * has.nodes / reduction.nodes;
-        entries.push_back(entry);
-    }
-    CandidateRace race(entries);
-    drive(race, seconds_,
-          [&](const RaceJob& job) { return runOf(points[job.entry], variants[job.entry], job, wishes); });
-    const auto winner = race.winner();
-    if (!winner || *winner == 0) return;
-    const RaceRun& best = race.runsOf(*winner)[*race.bestOf(*winner)];
-    const double work = workOf(result, has.nodes), excess = best.excess;
-    std::vector<TriedRun> tried = std::move(result.tried);
-    result = knownAt(points[*winner], best.n);
-    result.tried = std::move(tried);
-    result.unreducedWork = work;
-    result.excess = excess;
-}
-
 /// A model that leaves something out of the system.
 bool CandidateSearch::isReduced(std::size_t index) const {
     return !modelInPlace(schemeOf(index), *scene_.system).empty();
@@ -339,14 +293,21 @@ PointResult CandidateSearch::resultOf(const CandidateRace& race, std::size_t ind
     return result;
 }
 
-/// From few steps to many.
+/// From few steps to many; of schemes on meshes in the order in which they were made.
 std::vector<TriedRun> CandidateSearch::triedBy(std::size_t index) const {
     std::vector<TriedRun> all;
+    if (const auto mesh = meshes_.find(index); mesh != meshes_.end()) {
+        for (const MeshRun& run : mesh->second.runs())
+            if (std::isfinite(run.error)) all.push_back({run.cost, run.error, run.steps, run.cells});
+        return all;
+    }
     for (const auto& [key, known] : known_) {
         const PointResult& r = known.result;
-        const bool isOfThis = std::get<0>(key) == schemes_[index].point.scheme && std::get<1>(key) == 0;
-        if (!isOfThis || !r.isDone()) continue;  // what failed early cost little, and shows no error
-        all.push_back({costOf(schemes_[index].point, r), r.errorIn(0)});
+        const auto& [scheme, degree, nodes, cells, smaller, n] = key;
+        const bool isWhole = degree == 0 && cells == 0 && smaller == 0;
+        if (scheme != schemes_[index].point.scheme || !isWhole) continue;
+        if (!r.isDone()) continue;  // what failed early cost little, and shows no error
+        all.push_back({costOf(schemes_[index].point, r), r.errorIn(0), n, 0});
     }
     return all;
 }
@@ -435,7 +396,7 @@ std::vector<PointResult> CandidateSearch::find(std::span<const double> wishes, i
     if (stop_.stop_requested()) return results;
     for (std::size_t i = 0; i < schemes_.size(); ++i) results[i] = fullResultOf(race, i, wishes);
     for (std::size_t i = 0; i < schemes_.size(); ++i)
-        if (knobs_.isDegree && schemes_[i].isOfScene && results[i].isDone() && !entries_[i]->isSingle &&
+        if (schemes_[i].isOfScene && results[i].isDone() && !entries_[i]->isSingle &&
             !entries_[i]->isAdaptive)
             reduce(i, wishes, results[i]);
     for (std::size_t i = 0; i < schemes_.size() && knobs_.isTolerance; ++i)

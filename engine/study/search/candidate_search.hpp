@@ -78,9 +78,11 @@ private:
         PointResult result;
         double cost = 0;
     };
-    using Key = std::tuple<std::size_t, int, int, int, double>;  ///< scheme, degree, nodes, cells, n
+    using Key =
+        std::tuple<std::size_t, int, int, int, int, double>;  ///< scheme, degree, nodes, cells, smaller, n
     static Key keyOf(const StudyPoint& point, double n) {
-        return {point.scheme, point.reduction.degree, point.reduction.nodes, point.reduction.cells, n};
+        const Reduction& r = point.reduction;
+        return {point.scheme, r.degree, r.nodes, r.cells, r.smaller, n};
     }
 
     const ResolvedScheme& schemeOf(std::size_t index) const {
@@ -111,7 +113,13 @@ private:
                   PointResult& result) const;
     PointResult fullResultOf(const CandidateRace& race, std::size_t index,
                              std::span<const double> wishes) const;
+    struct Variant {
+        Reduction reduction;
+        double costShare = 1, stepShare = 1;  ///< of a step, and of the most steps that could be cheaper
+    };
     void reduce(std::size_t index, std::span<const double> wishes, PointResult& result);
+    void raceOfVariants(std::size_t index, const std::vector<Variant>& variants,
+                        std::span<const double> wishes, PointResult& result);
     void loosen(std::size_t index, std::span<const double> wishes, PointResult& result);
     std::string structureWithout(std::size_t index, const PointResult& exact, const PointResult& loose) const;
     PointResult resultOf(const CandidateRace& race, std::size_t index, double least) const;

@@ -10,6 +10,7 @@
 /// none is cheaper than what was found.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -54,6 +55,12 @@ public:
     bool isKnown() const { return model_.has_value(); }
     /// Of a mesh: the error that no shorter step improves; 0: not known.
     double floorOf(int cells) const;
+    /// The error that all runs together let expect; 0: not known.
+    double errorAt(double cells, double steps) const { return model_ ? model_->errorAt(cells, steps) : 0; }
+    /// That of the costs, in units of those of the runs.
+    double relativeCostAt(double cells, double steps) const {
+        return std::pow(cells, byCells_) * std::pow(steps, bySteps_);
+    }
     /// Of a number of steps, where the mesh is as fine as one likes; 0: not known.
     double timePart(double steps) const;
 

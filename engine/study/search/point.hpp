@@ -35,6 +35,8 @@ struct StudyPoint {
 /// A run that a search has made.
 struct TriedRun {
     double cost = 0, error = 0;  ///< seconds of CPU, or where runs are not timed, evaluations
+    double steps = 0;            ///< or 1/tolerance
+    int cells = 0;               ///< of schemes on meshes
     bool operator==(const TriedRun&) const = default;
 };
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/family/parts/meshes.hpp"
+#include "engine/family/parts/smaller_spaces.hpp"
 #include "engine/family/parts/steps.hpp"
 #include "engine/study/search/ladder.hpp"
 
@@ -26,6 +27,16 @@ void set(Settings& settings, const char* key, double value) {
 const char* factorKey(const ResolvedScheme& scheme) {
     const auto* const own = scheme.family ? scheme.family->parts.find<StepOfSpace>() : nullptr;
     return own ? own->factor : nullptr;
+}
+
+/// The smaller spaces of a scheme with the degree of a reduction; empty: it has none.
+std::vector<SmallerSpace> smallerSpacesOf(const ResolvedScheme& scheme, const Reduction& to,
+                                          const ResolvedScene& scene) {
+    const auto* const smaller = scheme.family ? scheme.family->parts.find<SmallerSpaces>() : nullptr;
+    if (!smaller || scheme.isComposed() || scheme.isTested()) return {};
+    Settings space = scheme.discretization.space;
+    if (to.degree > 0) set(space, "degree", to.degree);
+    return smaller->of(space, scene.scene.model);
 }
 
 }  // namespace
@@ -62,7 +73,7 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
         std::erase_if(spec.solver.keys, [](const Value::Member& m) { return m.first == "tolerance"; });
         spec.solver.keys.emplace_back("tolerance", to.solver);
     }
-    if (to.degree > 0 || to.cells > 0 || to.stepFactor > 0) {
+    if (to.degree > 0 || to.cells > 0 || to.stepFactor > 0 || to.smaller > 0) {
         spec.kind = SchemeSpec::Kind::discretization;
         spec.named.clear();
         spec.space = scheme.discretization.space;
@@ -71,6 +82,16 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
     if (to.degree > 0) {
         set(spec.space, "degree", to.degree);
         set(spec.quadrature, "nodes", to.nodes);
+    }
+    if (to.smaller > 0) {
+        const std::vector<SmallerSpace> all = smallerSpacesOf(scheme, to, scene);
+        const auto at = static_cast<std::size_t>(to.smaller) - 1;
+        if (at >= all.size())
+            throw InvalidScene("/space", "has no smaller space of number " + std::to_string(to.smaller));
+        spec.space = all[at].space;
+        // A rule that was chosen for the whole space is chosen again.
+        if (to.degree == 0) spec.quadrature = scheme.spec.quadrature;
+        if (spec.quadrature.type.empty()) spec.quadrature.type = "auto";
     }
     if (to.cells > 0) set(spec.space, "cells", to.cells);
     if (to.stepFactor > 0) {
@@ -100,6 +121,32 @@ std::vector<Reduction> reductionsOf(const ResolvedScheme& scheme, const Resolved
             }
         }
     return all;
+}
+
+std::vector<SmallerReduction> smallerReductionsOf(const ResolvedScheme& scheme, const Reduction& reduction,
+                                                  const ResolvedScene& scene) {
+    std::vector<SmallerReduction> all;
+    const std::vector<SmallerSpace> spaces = smallerSpacesOf(scheme, reduction, scene);
+    for (std::size_t i = 0; i < spaces.size(); ++i) {
+        Reduction to = reduction;
+        to.smaller = static_cast<int>(i) + 1;
+        try {
+            (void)reduced(scheme, to, scene);
+            all.push_back({to, spaces[i].share});
+        } catch (const InvalidScene&) {
+            continue;  // it does not exist
+        }
+    }
+    return all;
+}
+
+std::string textOfSmaller(const ResolvedScheme& scheme, const Reduction& reduction,
+                          const ResolvedScene& scene) {
+    const std::vector<SmallerSpace> all = smallerSpacesOf(scheme, reduction, scene);
+    const auto at = static_cast<std::size_t>(reduction.smaller) - 1;
+    return reduction.smaller > 0 && at < all.size()
+               ? scheme.family->parts.find<SmallerSpaces>()->text(all[at].space)
+               : std::string();
 }
 
 }  // namespace extremal

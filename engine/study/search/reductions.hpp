@@ -2,18 +2,23 @@
 /// What a scheme can do without: a smaller degree, fewer nodes, equations that are solved to round-off.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "engine/scene/resolve.hpp"
 
 namespace extremal {
 
-/// The degree of a space, the nodes of its rule, its elements, the tolerance of its solver, and the key of
-/// the space that its steps are proportional to, as a Courant number; 0: not changed.
+/// The degree of a space, the nodes of its rule, its elements, the tolerance of its solver, the key of the
+/// space that its steps are proportional to, as a Courant number, and which of its smaller spaces it is
+/// (SmallerSpaces), from 1 on; 0: not changed.
 struct Reduction {
     int degree = 0, nodes = 0, cells = 0;
     double solver = 0, stepFactor = 0;
-    explicit operator bool() const { return degree > 0 || cells > 0 || solver > 0 || stepFactor > 0; }
+    int smaller = 0;
+    explicit operator bool() const {
+        return degree > 0 || cells > 0 || solver > 0 || stepFactor > 0 || smaller > 0;
+    }
     bool operator==(const Reduction&) const = default;
 };
 
@@ -34,5 +39,18 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
 /// Smaller ones that exist, the largest degree first: each degree with as many more nodes than degrees as the
 /// scheme has, and with fewer.
 std::vector<Reduction> reductionsOf(const ResolvedScheme& scheme, const ResolvedScene& scene);
+
+/// Those of a scheme, as it is reduced already, that have fewer functions besides, and the share of the
+/// unknowns that each keeps; of what the family leaves out by itself (SmallerSpaces).
+struct SmallerReduction {
+    Reduction reduction;
+    double share = 1;
+};
+std::vector<SmallerReduction> smallerReductionsOf(const ResolvedScheme& scheme, const Reduction& reduction,
+                                                  const ResolvedScene& scene);
+
+/// What is left of a scheme in words: "48 modes"; empty where its space is the whole one.
+std::string textOfSmaller(const ResolvedScheme& scheme, const Reduction& reduction,
+                          const ResolvedScene& scene);
 
 }  // namespace extremal

@@ -47,7 +47,8 @@ ExactSolution SearchReference::of(const ResolvedScheme& scheme) const {
 
 ExactSolution SearchReference::of(const ResolvedScene& scene, const StudyPoint& point) const {
     // Another degree is on the mesh of the scheme.
-    return point.reduction.cells > 0 ? of(schemeOf(scene, point)) : of(scene.schemes[point.scheme]);
+    return point.reduction.cells > 0 || point.reduction.smaller > 0 ? of(schemeOf(scene, point))
+                                                                    : of(scene.schemes[point.scheme]);
 }
 
 Confirmation SearchReference::confirmed(const Metric& metric) const {

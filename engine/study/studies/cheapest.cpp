@@ -54,6 +54,10 @@ std::string keptOf(const Sweep& sweep, const SweepRow& row) {
     if (kept.degree > 0)
         text = "degree " + std::to_string(kept.degree) + ", " + counted(kept.nodes, "node") + ", ";
     if (kept.cells > 0) text += counted(kept.cells, "cell") + ", ";
+    if (const std::string smaller =
+            textOfSmaller(sweep.scene().schemes[row.point.scheme], r.reduction, sweep.scene());
+        !smaller.empty())
+        text += smaller + ", ";
     if (r.reduction.stepFactor > 0)
         text += "Courant number " + formatNumber(r.reduction.stepFactor, 3) + ", ";
     if (r.reduction.solver > 0) text += "solver to " + formatNumber(r.reduction.solver, 1) + ", ";

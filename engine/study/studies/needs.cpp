@@ -18,6 +18,10 @@ std::string textOfSteps(const Sweep& sweep, const SweepRow& row) {
     const Reduction has = richnessOf(schemeOf(sweep.scene(), row.point));
     std::string text = has ? "degree " + std::to_string(has.degree) + ", " : "";
     if (r.reduction.cells > 0) text += std::to_string(r.reduction.cells) + " cells, ";
+    if (const std::string smaller =
+            textOfSmaller(sweep.scene().schemes[row.point.scheme], r.reduction, sweep.scene());
+        !smaller.empty())
+        text += smaller + ", ";
     return text + std::to_string(r.steps) + " steps" +
            (r.tolerance > 0 ? ", tolerance " + formatNumber(r.tolerance, 3) : "");
 }
@@ -83,8 +87,7 @@ std::vector<Value::Array> summaryOfRungs(const Sweep& sweep) {
 /// What may be left out of the formula itself.
 std::vector<StudyTable> tableOfTerms(const Sweep& sweep) {
     StudyTable table{"needs-terms", {"term", "first_order", "measured", "may_go_above"}, {}};
-    if (!sweep.isComplete()) return {};
-    for (const TermCost& cost : termCosts(sweep.scene(), sweep.metric(), {}))
+    for (const TermCost& cost : sweep.terms())
         table.rows.push_back({cost.term, knownNumber(cost.firstOrder), knownNumber(cost.measured),
                               knownNumber(TermCost::safety * cost.firstOrder)});
     return table.rows.empty() ? std::vector<StudyTable>{} : std::vector<StudyTable>{std::move(table)};
