@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numbers>
+#include <utility>
 
+#include "engine/core/memo_cache.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal {
@@ -59,12 +62,13 @@ std::vector<double> upward(double x, int count) {
     return j;
 }
 
-/// What does not depend on z: nodes, and gamma_n w_i P_n(2 c_i - 1) at i * count + n.
+/// What does not depend on z: nodes, gamma_n w_i P_n(2 c_i - 1) at i * count + n, and 1/prod (c_i - c_l) over
+/// the other nodes.
 struct Expansion {
-    std::vector<double> node, coefficient;
+    std::vector<double> node, coefficient, cardinal;
 };
 
-Expansion expansionOf(FilonNodes nodes, int count) {
+Expansion madeExpansion(FilonNodes nodes, int count) {
     const Rule<double> rule = nodes == FilonNodes::gauss ? gauss<double>(count) : lobatto<double>(count);
     Expansion e;
     e.node = rule.c;
@@ -78,8 +82,19 @@ Expansion expansionOf(FilonNodes nodes, int count) {
             lower = P;
             P = next;
         }
+        double product = 1;
+        for (std::size_t l = 0; l < rule.c.size(); ++l)
+            if (l != i) product *= rule.c[i] - rule.c[l];
+        e.cardinal.push_back(1 / product);
     }
     return e;
+}
+
+/// Dense output asks for the same one at every place.
+std::shared_ptr<const Expansion> expansionOf(FilonNodes nodes, int count) {
+    static MemoCache<std::pair<FilonNodes, int>, std::shared_ptr<const Expansion>> recent(16);
+    return recent.get({nodes, count},
+                      [&] { return std::make_shared<const Expansion>(madeExpansion(nodes, count)); });
 }
 
 std::vector<Complex> weightsOf(const Expansion& e, double z) {
@@ -99,18 +114,27 @@ std::vector<Complex> weightsOf(const Expansion& e, double z) {
     return weight;
 }
 
-/// int_0^tau l_i(x) e^{izx} dx: the cardinal polynomials are seen exactly by the same rule on [0, tau].
-std::vector<Complex> weightsUpTo(const Expansion& e, double z, double tau) {
+/// tau l_i(tau c_j) at i * count + j: the cardinal polynomials are seen exactly by the same rule on [0, tau].
+std::vector<double> partsUpTo(const Expansion& e, double tau) {
+    const std::size_t count = e.node.size();
+    std::vector<double> part(count * count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j) {
+            double product = tau * e.cardinal[i];
+            for (std::size_t l = 0; l < count; ++l)
+                if (l != i) product *= tau * e.node[j] - e.node[l];
+            part[i * count + j] = product;
+        }
+    return part;
+}
+
+/// int_0^tau l_i(x) e^{izx} dx.
+std::vector<Complex> weightsUpTo(const Expansion& e, double z, double tau, const std::vector<double>& part) {
     const std::vector<Complex> inner = weightsOf(e, tau * z);
     const std::size_t count = e.node.size();
     std::vector<Complex> weight(count);
     for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t j = 0; j < count; ++j) {
-            double cardinal = tau;
-            for (std::size_t l = 0; l < count; ++l)
-                if (l != i) cardinal *= (tau * e.node[j] - e.node[l]) / (e.node[i] - e.node[l]);
-            weight[i] += cardinal * inner[j];
-        }
+        for (std::size_t j = 0; j < count; ++j) weight[i] += part[i * count + j] * inner[j];
     return weight;
 }
 
@@ -127,13 +151,15 @@ std::vector<double> sphericalBessel(double x, int count) {
 }
 
 FilonRule filonRule(FilonNodes nodes, int count, double z) {
-    const Expansion e = expansionOf(nodes, count);
-    return {e.node, weightsOf(e, z)};
+    const auto e = expansionOf(nodes, count);
+    return {e->node, weightsOf(*e, z)};
 }
 
 FilonGrid filonGrid(FilonNodes nodes, int count, std::array<int, 2> phases, std::array<double, 2> z,
                     double tau) {
-    const Expansion e = expansionOf(nodes, count);
+    const auto shared = expansionOf(nodes, count);
+    const Expansion& e = *shared;
+    const std::vector<double> part = tau == 1 ? std::vector<double>{} : partsUpTo(e, tau);
     const int M = phases[0] * phases[1], K[] = {(phases[0] - 1) / 2, (phases[1] - 1) / 2};
     std::vector<std::array<int, 2>> place;
     std::vector<Complex> turn[2];
@@ -153,7 +179,7 @@ FilonGrid filonGrid(FilonNodes nodes, int count, std::array<int, 2> phases, std:
     for (int k = 0; k <= K[0]; ++k)
         for (int l = k == 0 ? 0 : -K[1]; l <= K[1]; ++l) {
             const double rate = k * z[0] + l * z[1];
-            const std::vector<Complex> b = tau == 1 ? weightsOf(e, rate) : weightsUpTo(e, rate, tau);
+            const std::vector<Complex> b = tau == 1 ? weightsOf(e, rate) : weightsUpTo(e, rate, tau, part);
             const double share = (k == 0 && l == 0 ? 1.0 : 2.0) / M;
             for (std::size_t m = 0; m < place.size(); ++m) {
                 const int at[] = {k * place[m][0] % phases[0], (l + phases[1]) * place[m][1] % phases[1]};

@@ -205,7 +205,7 @@ Family multiscale() {
         return isProduct(space) ? completeProductRule(space, quadrature)
                                 : completeOscillatoryRule(space, quadrature);
     };
-    f.parts.set(SmallerSpaces{"harmonics", fewerHarmonics, textOfHarmonics});
+    f.parts.set(SmallerSpaces{"harmonics", fewerHarmonics, textOfHarmonics, false});
     f.describe = [](const Discretization& d) {
         if (isSlow(d.space)) return describeSlow(d.space, d.quadrature);
         return isProduct(d.space) ? describeProduct(d.space, d.quadrature)

@@ -25,6 +25,8 @@ struct SmallerSpaces {
     std::vector<SmallerSpace> (*of)(const Settings& space, const Settings& model) = nullptr;
     /// What such a space has, in words: "48 modes".
     std::string (*text)(const Settings& space) = nullptr;
+    /// Each of them is a part of the one before it, so that what fails in one fails in the next.
+    bool areNested = true;
 };
 
 /// With the whole number `key` at 4/5 of `whole`, at 4/5 of that and so on, rounded to multiples of

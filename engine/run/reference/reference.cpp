@@ -314,12 +314,13 @@ std::function<ExactSolution()> runOf(const ResolvedScheme& companion, const Reso
 }
 
 /// A solution of a system, as states of the same on another mesh.
-ExactSolution mapped(ExactSolution solution, OnOtherMesh::Map map, std::size_t width) {
+ExactSolution mapped(ExactSolution solution, OnOtherMesh::Map map, std::size_t width, std::size_t ownWidth) {
     const auto shared = std::make_shared<ExactSolution>(std::move(solution));
-    ExactSolution other = [shared, map = std::move(map), x = std::vector<double>(width)](
-                              double t, std::span<double> own) mutable {
-        (*shared)(t, x);
-        map(x.data(), own.data());
+    ExactSolution other = [shared, map = std::move(map), width, ownWidth, x = std::vector<double>()](
+                              std::span<const double> t, double* own) mutable {
+        x.resize(t.size() * width);
+        (*shared)(t, x.data(), width);
+        for (std::size_t i = 0; i < t.size(); ++i) map(x.data() + i * width, own + i * ownWidth);
     };
     other.setCheckpoint([shared](Archive& archive) { shared->checkpoint(archive); });
     return other;
@@ -355,7 +356,8 @@ Reference referenceFor(const Reference& reference, const ResolvedScene& resolved
     if (const auto* const other = resolved.system->parts.find<OnOtherMesh>()) {
         // What is exact there is so for its own modes, and says nothing of those that it leaves out.
         own.make = [make = reference.make, map = other->to(*scheme.ownSystem),
-                    width = resolved.initial.x.size()] { return mapped(make(), map, width); };
+                    width = resolved.initial.x.size(),
+                    ownWidth = scheme.ownInitial.x.size()] { return mapped(make(), map, width, ownWidth); };
         return own;
     }
     if (reference.onMesh.system)

@@ -429,6 +429,22 @@ void checkReference(Reader& reader, const ResolvedScene& resolved) {
                      "take auto");
 }
 
+/// Puts a scheme on the mesh of its own, if it has one. Whether it can be there.
+bool checkMesh(Reader& reader, ResolvedScheme& scheme, const Scene& scene, const std::string& place) {
+    try {
+        contained("", [&] { resolveSystem(scheme, scene); });
+        return true;
+    } catch (const InvalidScene& e) {
+        // What the model says of a key that the space has set is said of the space.
+        for (const Problem& p : e.problems()) {
+            const bool isKey =
+                p.pointer.size() > 1 && scheme.discretization.space.find(p.pointer.substr(1)) != nullptr;
+            reader.error(place + "/space" + (isKey ? p.pointer : ""), p.message, p.hint);
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::size_t>& places) {
@@ -436,19 +452,17 @@ void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::
     if (resolved.system && !checkStart(reader, resolved)) return;
     if (scene.end.value != scene.start.value) checkRows(reader, scene);
     if (resolved.system) checkCaution(reader, resolved);
+    std::vector<bool> areThere(resolved.schemes.size(), true);
     for (std::size_t i = 0; i < resolved.schemes.size() && resolved.system; ++i) {
         if (!resolved.schemes[i].properties.refusal.empty()) continue;
-        const work::Part part(childPointer("/schemes", places[i]));
-        try {
-            contained("", [&] { resolveSystem(resolved.schemes[i], scene); });
-        } catch (const InvalidScene& e) {
-            for (const Problem& p : e.problems())
-                reader.error(childPointer("/schemes", places[i]) + "/space", p.message, p.hint);
-        }
+        const std::string place = childPointer("/schemes", places[i]);
+        const work::Part part(place);
+        areThere[i] = checkMesh(reader, resolved.schemes[i], scene, place);
     }
     for (std::size_t i = 0; i < resolved.schemes.size(); ++i) {
-        const work::Part part(childPointer("/schemes", places[i]));
-        checkScheme(reader, resolved, resolved.schemes[i], childPointer("/schemes", places[i]));
+        const std::string place = childPointer("/schemes", places[i]);
+        const work::Part part(place);
+        if (areThere[i]) checkScheme(reader, resolved, resolved.schemes[i], place);
     }
     if (resolved.system && reader.errors.empty()) checkCompanions(reader, resolved, places);
     for (const ResolvedScheme& scheme : resolved.reference)

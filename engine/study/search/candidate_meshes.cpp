@@ -95,10 +95,25 @@ double CandidateSearch::leastCost(const CandidateRace& race, std::span<const dou
     return least;
 }
 
+/// Seconds of the first run of a scheme, of which nothing else is known.
+double CandidateSearch::firstSeconds(std::size_t index, const MeshPair& pair) {
+    const auto known = firstSeconds_.find(index);
+    if (known != firstSeconds_.end()) return known->second;
+    constexpr double longestTrial = 0.02;
+    constexpr long long steps = 2;
+    const ResolvedScheme& scheme = schemeOf(index);
+    StudyPoint own = schemes_[index].point;
+    if (pair.cells != cellsOf(scheme, scene_)) own.reduction.cells = pair.cells;
+    const StepCost cost = tryPoint(scene_, pointAt(own, scheme, pair.steps), steps,
+                                   {.seconds = longestTrial * seconds_, .watch = &watch_}, stop_);
+    const double all = cost.isCutOff ? HUGE_VAL : pair.steps * cost.seconds;
+    return firstSeconds_.emplace(index, std::isnan(all) ? 0 : all).first->second;
+}
+
 /// Always the scheme that promises to be the cheapest, until none can be cheaper, or so much has been spent;
-/// the best is confirmed.
-void CandidateSearch::searchMeshes(const CandidateRace& race, std::span<const double> wishes,
-                                   double seconds) {
+/// the best is confirmed. Schemes whose first run takes longer than `longestFirst` seconds are left alone.
+void CandidateSearch::searchMeshes(const CandidateRace& race, std::span<const double> wishes, double seconds,
+                                   double longestFirst) {
     beginMeshes();
     confirmedMeshes_.clear();
     while (!meshes_.empty() && !stop_.stop_requested() && spent_ < seconds) {
@@ -110,6 +125,8 @@ void CandidateSearch::searchMeshes(const CandidateRace& race, std::span<const do
                                          mostTimesItsOwn * dearestOnOwnMesh(fit));
             const auto next = fit.next(wantedOf(wishes), most);
             if (!next) continue;
+            const bool isFirst = fit.runs().empty() && std::isfinite(longestFirst);
+            if (isFirst && firstSeconds(index, *next) > longestFirst) continue;
             // Those go on that promise to be the cheapest, not those whose next run is.
             const double price = fit.isKnown() ? next->cost : fit.promisedCost(wantedOf(wishes));
             if (!job || price < lowest) job = {index, *next}, limit = most, lowest = price;

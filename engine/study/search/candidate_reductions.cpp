@@ -23,7 +23,19 @@ void CandidateSearch::reduce(std::size_t index, std::span<const double> wishes, 
     std::vector<Variant> variants;
     for (const auto& [reduction, share] : smallerReductionsOf(whole, result.reduction, scene_))
         variants.push_back({reduction, share, 2 / share});
-    raceOfVariants(index, variants, wishes, result);
+    if (!areSmallerNested(whole)) return raceOfVariants(index, variants, wishes, result);
+    // What fails with one of them fails with less: one after another, until two in a row are no better.
+    constexpr int enough = 2;
+    double kept = 1;
+    int misses = 0;
+    for (const Variant& variant : variants) {
+        const double share = variant.costShare / kept;
+        raceOfVariants(index, {{variant.reduction, share, 2 / share}}, wishes, result);
+        const bool isTaken = result.reduction == variant.reduction;
+        if (isTaken) kept = variant.costShare;
+        misses = isTaken ? 0 : misses + 1;
+        if (misses == enough) break;
+    }
 }
 
 /// The lowest cost among variants, with the steps with which they could be cheaper than what was found.

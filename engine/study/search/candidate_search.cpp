@@ -377,16 +377,18 @@ CandidateRace CandidateSearch::raceFor(std::span<const double> wishes) {
         entries.back().mostTimes = schemes_[i].isOfScene ? mostTimesTheLeast : 1;
     }
     CandidateRace race(entries);
-    // What these find limits the race of those whose mesh is that of the scene.
-    constexpr double partOfMeshes = 0.7;
+    // What these find limits the race of those whose mesh is that of the scene, which limits in turn what is
+    // spent on a first run that would take long.
+    constexpr double partOfMeshes = 0.7, longestFirst = 0.1;
     searchMeshes(race, wishes,
-                 std::isfinite(seconds_) ? spent_ + partOfMeshes * (seconds_ - spent_) : seconds_);
+                 std::isfinite(seconds_) ? spent_ + partOfMeshes * (seconds_ - spent_) : seconds_,
+                 longestFirst * seconds_);
     race.setKnownCost(leastCost(race, wishes));
     if (!stop_.stop_requested())
         drive(race, seconds_, [&](const RaceJob& job) {
             return runOf(schemes_[job.entry].point, schemeOf(job.entry), job, wishes);
         });
-    searchMeshes(race, wishes, seconds_);
+    searchMeshes(race, wishes, seconds_, HUGE_VAL);
     return race;
 }
 

@@ -101,7 +101,9 @@ private:
     double costOf(const StudyPoint& own, const PointResult& result) const;
     bool hasMesh(std::size_t index) const;
     double wantedOf(std::span<const double> wishes) const { return wishes.size() == 1 ? wishes[0] : 1; }
-    void searchMeshes(const CandidateRace& race, std::span<const double> wishes, double seconds);
+    void searchMeshes(const CandidateRace& race, std::span<const double> wishes, double seconds,
+                      double longestFirst);
+    double firstSeconds(std::size_t index, const MeshPair& pair);
     void beginMeshes();
     MeshRun meshRunOf(std::size_t index, const MeshPair& pair, double limit, std::span<const double> wishes);
     bool isConfirmed(std::size_t index, const MeshRun& best, std::span<const double> wishes);
@@ -153,6 +155,7 @@ private:
     std::map<Key, Known> known_;
     SearchKnobs knobs_;
     std::map<std::size_t, MeshFit> meshes_;          ///< by scheme
+    std::map<std::size_t, double> firstSeconds_;     ///< of the first run of each, from a few steps of it
     std::map<std::size_t, double> confirmedMeshes_;  ///< steps that confirmed the best, of the last wish
 };
 

@@ -140,6 +140,11 @@ std::vector<SmallerReduction> smallerReductionsOf(const ResolvedScheme& scheme, 
     return all;
 }
 
+bool areSmallerNested(const ResolvedScheme& scheme) {
+    const auto* const smaller = scheme.family ? scheme.family->parts.find<SmallerSpaces>() : nullptr;
+    return smaller && smaller->areNested;
+}
+
 std::string textOfSmaller(const ResolvedScheme& scheme, const Reduction& reduction,
                           const ResolvedScene& scene) {
     const std::vector<SmallerSpace> all = smallerSpacesOf(scheme, reduction, scene);

@@ -49,6 +49,9 @@ struct SmallerReduction {
 std::vector<SmallerReduction> smallerReductionsOf(const ResolvedScheme& scheme, const Reduction& reduction,
                                                   const ResolvedScene& scene);
 
+/// Whether each of them is a part of the one before it.
+bool areSmallerNested(const ResolvedScheme& scheme);
+
 /// What is left of a scheme in words: "48 modes"; empty where its space is the whole one.
 std::string textOfSmaller(const ResolvedScheme& scheme, const Reduction& reduction,
                           const ResolvedScene& scene);
