@@ -47,6 +47,17 @@ void addBound(Figure& figure, const FigureContext& context) {
     figure.add(Label{reference.horizon, 2 * reference.boundAlong.back().value, "judged to here"});
 }
 
+/// When the force has a pulse, which schemes may step over.
+void addPulses(Figure& figure, const FigureContext& context, double scale) {
+    constexpr std::size_t most = 12;  // more would be a grey plot
+    const std::vector<ReferenceInfo::At>& pulses = context.comparison.reference.pulses;
+    if (isAgainstSteps(context.view) || pulses.size() > most || !(scale > 0)) return;
+    for (const ReferenceInfo::At& pulse : pulses) {
+        figure.add(Guide{{pulse.t, pulse.t}, {0x1p-52 * scale, scale}});
+        figure.add(Label{pulse.t, 2 * 0x1p-52 * scale, "pulse, " + shortNumber(pulse.value, 1) + " wide"});
+    }
+}
+
 Figure makeError(const FigureContext& context) {
     Figure figure = startFigure(context, "Error");
     figure.y = logAxis(axisTitle(symbolOf(context), columnInfo(context, "error").unit));
@@ -63,6 +74,7 @@ Figure makeError(const FigureContext& context) {
         if (reference.boundAlong.empty()) figure.put(DoubtfulBand{10 * reference.estimatedError});
     }
     addBound(figure, context);
+    addPulses(figure, context, scale);
     for (const auto& scheme : context.comparison.schemes) {
         const double opensAt = scheme->summary.opensAt;
         if (!std::isfinite(opensAt) || isAgainstSteps(context.view)) continue;

@@ -24,26 +24,23 @@ double dearestOnOwnMesh(const MeshFit& fit) {
 
 }  // namespace
 
+/// How many unknowns a run has for each of the scene: what is counted is work on each of them.
+double CandidateSearch::unknownsOf(const StudyPoint& own) const {
+    const ResolvedScheme& scheme = scene_.schemes[own.scheme];
+    const auto size = static_cast<double>(scene_.initial.x.size());
+    const auto unknowns = [&](const ResolvedScheme& of) {
+        return of.ownSystem && size > 0 ? static_cast<double>(of.ownInitial.x.size()) / size : 1.0;
+    };
+    if (own.reduction.smaller > 0) return unknowns(extremal::schemeOf(scene_, own));
+    const int cells = own.reduction.cells;
+    return unknowns(scheme) * (cells > 0 ? cells / double(cellsOf(scheme, scene_)) : 1);
+}
+
 /// CPU seconds; or what is counted, on the mesh of the run: a step on twice as many unknowns costs twice as
 /// much.
 double CandidateSearch::costOf(const StudyPoint& own, const PointResult& result) const {
     if (!isCounted_) return result.cpuSeconds;
-    const ResolvedScheme& scheme = scene_.schemes[own.scheme];
-    const int nodes = richnessOf(schemeAt(scene_, own.scheme, result)).nodes;
-    double times = 1;
-    const auto unknowns = [&](const ResolvedScheme& of) {
-        return static_cast<double>(of.ownInitial.x.size());
-    };
-    if (const auto size = static_cast<double>(scene_.initial.x.size()); size > 0) {
-        if (own.reduction.smaller > 0) {
-            const ResolvedScheme smaller = extremal::schemeOf(scene_, own);
-            if (smaller.ownSystem) times = unknowns(smaller) / size;
-        } else if (scheme.ownSystem) {
-            times = unknowns(scheme) / size;
-        }
-    }
-    if (const int cells = own.reduction.cells; cells > 0) times *= cells / double(cellsOf(scheme, scene_));
-    return times * workOf(result, nodes);
+    return unknownsOf(own) * workOf(result, richnessOf(schemeAt(scene_, own.scheme, result)).nodes);
 }
 
 bool CandidateSearch::hasMesh(std::size_t index) const {

@@ -133,13 +133,15 @@ RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& sche
         CostLimit limit{.watch = &watch_};
         (isCounted_ ? limit.work : limit.seconds) =
             std::min(job.limit, tooLong * job.predictedCost + (isCounted_ ? littleWork : fewSeconds));
+        if (isCounted_) limit.work /= unknownsOf(own);
         const double left = std::isfinite(seconds_) ? std::max(seconds_ - spent_, fewSeconds) : longestStep;
         limit.seconds = std::min(limit.seconds, left);
         Known made;
         made.result = runCases(own, pointAt(own, scheme, job.n), 0, limit, wishes);
         made.cost = costOf(own, made.result);
         // A step that did not end is counted nowhere.
-        if (made.result.isCutOff) made.cost = std::max(made.cost, isCounted_ ? limit.work : limit.seconds);
+        if (made.result.isCutOff)
+            made.cost = std::max(made.cost, isCounted_ ? limit.work * unknownsOf(own) : limit.seconds);
         ++runs_;
         known = known_.insert_or_assign(key, std::move(made)).first;
     }

@@ -98,6 +98,7 @@ private:
     PointResult runCases(const StudyPoint& own, const StudyPoint& at, int repeat, const CostLimit& limit,
                          std::span<const double> wishes);
     void drive(CandidateRace& race, double seconds, const std::function<RaceRun(const RaceJob&)>& run);
+    double unknownsOf(const StudyPoint& own) const;
     double costOf(const StudyPoint& own, const PointResult& result) const;
     bool hasMesh(std::size_t index) const;
     double wantedOf(std::span<const double> wishes) const { return wishes.size() == 1 ? wishes[0] : 1; }

@@ -2,9 +2,12 @@
 #include "engine/study/search/search_reference.hpp"
 
 #include <algorithm>
+#include <numbers>
 
+#include "engine/family/family.hpp"
 #include "engine/run/reference/error_floor.hpp"
 #include "engine/run/reference/members.hpp"
+#include "engine/scene/bind.hpp"
 
 namespace extremal {
 
@@ -31,6 +34,11 @@ SearchReference::SearchReference(const ResolvedScene& scene, const std::vector<M
     constexpr double part = 0.1, roundOff = 1e-14, most = 1e-11;  // the last two of the state
     const bool isStepped = reference_.info.type == "computed" || reference_.info.type == "scheme";
     if (!reference_.make || reference_.onMesh.system || !isStepped || stop.stop_requested()) return;
+    // Some eight places a period: more than all runs of a search ask for, as those that resolve so many
+    // periods are seldom worth their cost.
+    constexpr double mostPeriods = 4000;
+    const double length = timeSpan(scene.scene).length();
+    if (highestFrequency(*scene.system, scene.initial) * length > 2 * std::numbers::pi * mostPeriods) return;
     const double known = reference_.info.estimatedError, size = largestEntry(scene.initial),
                  least = roundOff * size;
     table_ = TabulatedSolution::of(reference_.make(), scene.scene.start.value, scene.scene.end.value,
