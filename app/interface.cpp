@@ -135,9 +135,10 @@ void addSearch(CLI::App& verb, StudyOptions& study) {
     verb.add_option(
             "--knobs", study.knobs,
             "for cheapest and needs: what is searched besides the step, all by default: degree (and "
-            "nodes), cells (elements of fields), courant, and if named tolerance (of the solver); for "
+            "nodes), cells (elements of fields), modes (of wave functions), harmonics (of oscillatory "
+            "spaces), mesh-nodes (that move), courant, and if named tolerance (of the solver); for "
             "convergence and work-precision: step alone, or with cells")
-        ->type_name("step,degree,cells,courant,tolerance");
+        ->type_name("step,degree,cells,modes,harmonics,mesh-nodes,courant,tolerance");
     verb.add_option("--search-time", study.searchTime,
                     "for cheapest and needs: CPU time of the search, 1s and 4s by default; for limits "
                     "of each scheme, 2s")

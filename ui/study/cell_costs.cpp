@@ -62,7 +62,7 @@ std::vector<std::optional<MeasuredCell>> costsOfCells(const ResolvedScene& scene
     options.wantedError = error;
     options.searchSeconds = seconds;
     options.repeat = 1;
-    options.knobs = {false, false};  // the cell as it is
+    options.knobs = {.isDegree = false, .isCells = false, .isSmaller = false};  // the cell as it is
     Sweep sweep(std::move(all), options);
     sweep.run({}, {}, stop);
     for (const SweepRow& row : sweep.rows()) {

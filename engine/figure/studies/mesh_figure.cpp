@@ -54,10 +54,14 @@ struct Plane {
 
 /// Where f is 0, segment by segment, by its signs at the corners of a grid.
 Guide contourOf(const Plane& plane, const std::function<double(double x, double y)>& f) {
-    constexpr int count = 48;
+    constexpr int count = 160;
     constexpr double gap = PointResult::unknown;
     Guide guide;
-    const auto at = [&](int i, int j) { return f(plane.x(double(i) / count), plane.y(double(j) / count)); };
+    std::vector<double> values;
+    for (int i = 0; i <= count; ++i)
+        for (int j = 0; j <= count; ++j)
+            values.push_back(f(plane.x(double(i) / count), plane.y(double(j) / count)));
+    const auto at = [&](int i, int j) { return values[static_cast<std::size_t>(i * (count + 1) + j)]; };
     for (int i = 0; i < count; ++i)
         for (int j = 0; j < count; ++j) {
             const int corners[5][2] = {{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}, {i, j}};
@@ -82,21 +86,14 @@ Guide contourOf(const Plane& plane, const std::function<double(double x, double 
     return guide;
 }
 
-HeatMap errorsOver(const Plane& plane, const MeshFit& fit, const std::string& title, double low,
-                   double high) {
-    constexpr int count = 64;
-    HeatMap heat;
-    heat.left = plane.left, heat.right = plane.right;
-    heat.bottom = plane.bottom, heat.top = plane.top;
-    heat.columns = heat.rows = count;
-    heat.scale = title;
-    heat.low = low, heat.high = high;
-    for (int i = 0; i < count; ++i) heat.xs.push_back(plane.x((i + 0.5) / count));
-    for (int j = 0; j < count; ++j) heat.ys.push_back(plane.y((j + 0.5) / count));
-    for (const double steps : heat.xs)
-        for (const double cells : heat.ys) heat.values.push_back(fit.errorAt(cells, steps));
-    heat.faults.assign(heat.values.size(), "");
-    return heat;
+/// Where a contour leaves the plane to the right, or above.
+Label endOf(const Plane& plane, const Guide& contour, std::string text) {
+    constexpr double inside = 0.96, above = 0.015;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < contour.x.size(); ++i)
+        if (contour.x[i] > contour.x[last]) last = i;
+    return {std::min(contour.x[last], plane.x(inside)),
+            std::min(contour.y[last] * plane.y(above) / plane.bottom, plane.y(inside)), std::move(text)};
 }
 
 }  // namespace
@@ -131,26 +128,30 @@ std::optional<Figure> meshFigure(const Sweep& sweep) {
     figure.y = logAxis("elements N");
     figure.x.range = {plane.left, plane.right};
     figure.y.range = {plane.bottom, plane.top};
-    figure.add(errorsOver(plane, fit, errorTitle(sweep), low, std::max(high, 2 * low)));
-    if (wish > 0) {
-        Guide line = contourOf(plane, [&](double n, double N) { return fit.errorAt(N, n) - wish; });
-        line.isStrong = true;
-        if (!line.x.empty()) {
-            figure.add(Label{line.x.front(), line.y.front(), "wish " + shortNumber(wish, 2)});
-            figure.add(std::move(line));
-        }
-    }
+    const auto addErrors = [&](double error, bool isStrong, const std::string& text) {
+        Guide line =
+            contourOf(plane, [&](double n, double N) { return std::log(fit.errorAt(N, n) / error); });
+        if (line.x.empty()) return;
+        line.isStrong = isStrong;
+        figure.add(endOf(plane, line, text));
+        figure.add(std::move(line));
+    };
+    for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade < 10 * high; decade *= 10)
+        if (std::abs(std::log10(decade / wish)) > 0.1) addErrors(decade, false, shortNumber(decade, 1));
+    if (wish > 0) addErrors(wish, true, "wish " + shortNumber(wish, 2));
     const MeshRun* const best = wish > 0 ? fit.best(wish) : nullptr;
-    for (const double times : {0.25, 1.0, 4.0}) {
-        if (!best) break;
-        const double cost = times * fit.relativeCostAt(best->cells, best->steps);
-        figure.add(contourOf(plane, [&](double n, double N) { return fit.relativeCostAt(N, n) - cost; }));
+    if (best) {
+        const double cost = fit.relativeCostAt(best->cells, best->steps);
+        Guide equal =
+            contourOf(plane, [&](double n, double N) { return std::log(fit.relativeCostAt(N, n) / cost); });
+        equal.isBroad = true;
+        figure.add(std::move(equal));
     }
-    if (best)
-        figure.add(Label{best->steps, double(best->cells),
-                         std::to_string(best->cells) + " elements, " + shortNumber(best->steps) + " steps"});
     figure.add(std::move(runs));
-    figure.subtitle = spec.label + ": errors as fitted to its runs, the dots; faint lines: equal cost";
+    figure.subtitle = "errors as fitted to the runs, the dots";
+    if (best)
+        figure.subtitle += "; broad: what costs as much as " + std::to_string(best->cells) +
+                           " elements and " + shortNumber(best->steps) + " steps";
     figure.summary = "Errors of " + spec.label + " over steps and elements, fitted to " +
                      std::to_string(row->result.tried.size()) + " runs.";
     return figure;

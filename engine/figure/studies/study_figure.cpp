@@ -378,8 +378,7 @@ std::vector<Figure> studyFigures(std::string_view study, const Sweep& sweep) {
     std::vector<Figure> all{studyFigure(study, sweep)};
     if (sweep.options().wantedError > 0)
         if (std::optional<Figure> plane = meshFigure(sweep)) all.push_back(std::move(*plane));
-    if (!sweep.terms().empty())
-        all.push_back(termFigure(sweep.terms(), errorTitle(sweep), sweep.options().rungs));
+    if (!sweep.terms().empty()) all.push_back(termFigure(sweep.terms(), errorTitle(sweep)));
     return all;
 }
 

@@ -18,8 +18,7 @@ std::string shortened(const std::string& term) {
 
 }  // namespace
 
-Figure termFigure(const std::vector<TermCost>& costs, const std::string& error,
-                  const std::vector<double>& wishes) {
+Figure termFigure(const std::vector<TermCost>& costs, const std::string& error) {
     constexpr double around = 3;
     Figure figure;
     figure.view = "needs-terms";
@@ -48,11 +47,6 @@ Figure termFigure(const std::vector<TermCost>& costs, const std::string& error,
     }
     figure.y.range = {height + 0.5, 0.5};
     if (high > 0) figure.x.range = {left, right};
-    for (const double wish : wishes) {
-        if (!(wish > left && wish < right)) continue;
-        figure.add(Guide{{wish, wish}, {height + 0.5, 0.5}});
-        figure.add(Label{wish, 0.35, shortNumber(wish, 2)});
-    }
     if (!measured.x.empty()) figure.add(std::move(measured));
     if (!(high > 0)) figure.message = "No term has an effect on it";
     figure.summary = "First-order costs of " + std::to_string(costs.size()) + " terms.";

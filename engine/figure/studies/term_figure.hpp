@@ -11,9 +11,7 @@
 namespace extremal {
 
 /// A bar up to the first order of each term, from the cheapest up, with a dot where it was measured without
-/// the term. `error`: title of the errors; `wishes`: lines, of which a term may go left of those that are
-/// TermCost::safety times its bar.
-Figure termFigure(const std::vector<TermCost>& costs, const std::string& error,
-                  const std::vector<double>& wishes);
+/// the term. `error`: title of the errors.
+Figure termFigure(const std::vector<TermCost>& costs, const std::string& error);
 
 }  // namespace extremal

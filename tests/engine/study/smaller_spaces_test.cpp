@@ -225,21 +225,26 @@ private slots:
         const Figure& plane = figures[1];
         QCOMPARE(plane.view, "two-knobs");
         QVERIFY(plane.x.isLog && plane.y.isLog);
-        const HeatMap& heat = *plane.heat();
-        // The model at the runs is what they gave, within the noise of the fit.
-        const PointResult& result = sweep.rows().front().result;
-        QVERIFY(result.tried.size() >= 3);
-        for (const TriedRun& run : result.tried) {
-            const auto part = [](double value, double low, double high, int count) {
-                return std::min(count - 1,
-                                static_cast<int>(count * std::log(value / low) / std::log(high / low)));
-            };
-            const int i = part(run.steps, heat.left, heat.right, heat.columns),
-                      j = part(run.cells, heat.bottom, heat.top, heat.rows);
-            const double shown = heat.values[static_cast<std::size_t>(i * heat.rows + j)];
-            qInfo("%g steps, %d cells: %.2e, shown %.2e", run.steps, run.cells, run.error, shown);
-            QVERIFY(shown > run.error / 4 && shown < 4 * run.error);
+        const SweepRow& row = sweep.rows().front();
+        QVERIFY(row.result.tried.size() >= 3);
+        QCOMPARE(plane.series().front().x.size(), row.result.tried.size());
+        // What was found is near the line of the wish, and on that of its cost.
+        const auto distance = [&](const Guide& line) {
+            double least = HUGE_VAL;
+            for (std::size_t i = 0; i < line.x.size(); ++i)
+                if (std::isfinite(line.x[i]))
+                    least = std::min(least, std::abs(std::log(line.x[i] / double(row.result.steps))) +
+                                                std::abs(std::log(line.y[i] / row.result.reduction.cells)));
+            return least;
+        };
+        int seen = 0;
+        for (const Guide& line : plane.all<Guide>()) {
+            if (line.isStrong || line.isBroad) ++seen;
+            if (line.isStrong) qInfo("to the wish: %.3f", distance(line));
+            if (line.isStrong) QVERIFY(distance(line) < 0.2);
+            if (line.isBroad) QVERIFY(distance(line) < 0.05);
         }
+        QCOMPARE(seen, 2);
         const auto labels = plane.all<Label>();
         QVERIFY(std::any_of(labels.begin(), labels.end(),
                             [](const Label& l) { return l.text.starts_with("wish"); }));
