@@ -122,6 +122,11 @@ void addSearch(CLI::App& verb, StudyOptions& study) {
             "for cheapest: the smallest error for this CPU time of a run (1ms), or of a second of its "
             "motion (1ms/s)")
         ->type_name("TIME[/s]");
+    verb.add_option(
+            "--memory", study.memory,
+            "for cheapest and needs: what a run of a scheme may hold at most (64kB, 10MB, 1GB), tables "
+            "that all runs share apart; the column bytes says what it holds")
+        ->type_name("SIZE");
     verb.add_option("--candidates", study.candidates,
                     "for cheapest: the schemes of the scene (default), or all that accept it; for needs all "
                     "by default")

@@ -46,6 +46,23 @@ double usableError(const StudyRequest& study) {
     return study.error;
 }
 
+/// "2000", "64kB", "10MB", "1.5GB".
+double parseBytes(const std::string& text, const std::string& option) {
+    std::string number = text;
+    double unit = 1;
+    for (const auto& [name, bytes] : {std::pair{"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"B", 1.0}}) {
+        if (!number.ends_with(name)) continue;
+        number.resize(number.size() - std::string(name).size());
+        unit = bytes;
+        break;
+    }
+    const auto value = parseNumber(number);
+    if (!value || !(*value > 0) || !std::isfinite(*value))
+        throw InvalidScene(option, "must be a positive number of bytes, got \"" + text + "\"",
+                           "for example 64kB, 10MB, 1GB");
+    return unit * *value;
+}
+
 /// "1", "1s", "500ms", "20us"; in seconds.
 double parseSeconds(const std::string& text, const std::string& option) {
     std::string number = text;
@@ -73,7 +90,7 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
     const auto refuse = [&](bool isGiven, Over over, std::string_view option, const char* whose) {
         bool isOwn = entry.over == over;
         if (option == "--wish" || option == "--error") isOwn = isOwn || hasWishes;
-        if (option == "--candidates") isOwn = isOwn || entry.over == Over::wishes;
+        if (option == "--candidates" || option == "--memory") isOwn = isOwn || entry.over == Over::wishes;
         if (option == "--search-time")
             isOwn = isOwn || entry.over == Over::wishes || entry.over == Over::usableSteps;
         if (option == "--over" || option == "--of" || option == "--knobs")
@@ -87,6 +104,7 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
     refuse(study.error != 0, Over::wantedError, "--error", "cheapest");
     refuse(!study.wishes.empty(), Over::wantedError, "--wish", "cheapest");
     refuse(!study.budget.empty(), Over::wantedError, "--budget", "cheapest");
+    refuse(!study.memory.empty(), Over::wantedError, "--memory", "cheapest");
     refuse(!study.candidates.empty(), Over::wantedError, "--candidates", "cheapest");
     refuse(!study.searchTime.empty(), Over::wantedError, "--search-time", "cheapest");
     refuse(!study.knobs.empty(), Over::wantedError, "--knobs", "cheapest");
@@ -166,6 +184,7 @@ Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, bool isLadd
         // Without a wish the metric is compared as it is.
         if (options.wantedError == 0) options.wantedError = 1;
     }
+    if (!study.memory.empty()) options.mostBytes = parseBytes(study.memory, "--memory");
     options.hasAllCandidates = study.candidates == "all" || (isLadder && study.candidates.empty());
     if (!study.searchTime.empty()) options.searchSeconds = parseSeconds(study.searchTime, "--search-time");
     options.knobs = parseKnobs(study.knobs);

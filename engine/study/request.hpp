@@ -18,6 +18,7 @@ struct StudyRequest {
     std::vector<std::string> wishes;  ///< "METRIC=VALUE"
     std::string candidates;           ///< "scene" or "all"; empty: "scene", of needs "all"
     std::string budget;               ///< "1ms", "1ms/s"; empty: none
+    std::string memory;               ///< "10MB": that a scheme may hold; empty: any
     std::string over, of;             ///< "POINTER=a,b,c"; "worst" or "median". Empty: the scene alone
     std::string knobs;                ///< "step,degree,cells"; empty: all
     std::string searchTime;           ///< "0.5", "500ms", "1s"; empty: the usual one

@@ -84,6 +84,7 @@ void Sweep::checkOptions() const {
     for (const double rung : options_.rungs) requireUsable(rung, "--wish");
     if (options_.searchSeconds != 0) requireUsable(options_.searchSeconds, "--search-time");
     if (options_.budget != 0) requireUsable(options_.budget, "--budget");
+    if (options_.mostBytes != 0) requireUsable(options_.mostBytes, "--memory");
     if (options_.budget != 0 && options_.over.isGiven())
         throw InvalidScene("--over", "does not go with --budget", "--wish or --error");
     if (options_.budget != 0 && options_.repeat == 0)
@@ -281,6 +282,7 @@ void Sweep::runSearch(const std::vector<std::size_t>& wanted,
         stop);
     search.judgeOver(cases_, options_.over.isMedian);
     search.setKnobs(options_.knobs);
+    if (options_.mostBytes > 0) search.setMostBytes(options_.mostBytes);
     if (isLadder) return climb(search, wanted, onPoint, stop);
     std::vector<double> values;
     for (const Wish& wish : wishes()) values.push_back(wish.value);
@@ -302,13 +304,14 @@ std::vector<PointResult> Sweep::spend(const std::vector<SearchedScheme>& schemes
                                       const std::vector<Metric>& metrics, const std::vector<double>& wishes,
                                       const SearchReference& reference, double seconds,
                                       const std::stop_token& stop) const {
+    constexpr double unlimited = std::numeric_limits<double>::infinity();
     std::vector<StudyPoint> points;
     for (const SearchedScheme& each : schemes) points.push_back(each.point);
     const double length = timeSpan(scene_.scene).length();
     return bestWithin({scene_, points, metrics, wishes,
                        [&](const StudyPoint& point) { return reference.of(scene_.schemes[point.scheme]); },
                        reference_.estimatedError, options_.budget * (options_.isPerTime ? length : 1),
-                       seconds, options_.repeat},
+                       seconds, options_.mostBytes > 0 ? options_.mostBytes : unlimited, options_.repeat},
                       stop);
 }
 

@@ -49,6 +49,7 @@ struct SweepOptions {
     /// CPU for a run, and if isPerTime for a unit of its time.
     double budget = 0;
     bool isPerTime = false;
+    double mostBytes = 0;      ///< above 0, of a search: that a scheme may hold (CostLimit::bytes)
     OverCases over = {};       ///< of a search: what has to be served besides the scene itself
     SearchKnobs knobs = {};    ///< of a search; of ladders only isCells: mesh and step are refined together
     double searchSeconds = 0;  ///< of CPU; 0: 1 s where runs are timed, else no limit

@@ -39,7 +39,7 @@ std::string pointLine(std::size_t index, const PointResult& r) {
     line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes) + ',' +
             std::to_string(r.reduction.cells) + cellsText({r.reduction.solver, r.reduction.stepFactor}) +
             ',' + std::to_string(r.reduction.smaller);
-    line += cellsText({r.unreducedWork, r.timesCheapest, r.excess, r.floor, r.confirmedAt});
+    line += cellsText({r.unreducedWork, r.timesCheapest, r.excess, r.floor, r.confirmedAt, r.bytes});
     std::vector<double> tried;
     for (const TriedRun& run : r.tried)
         tried.insert(tried.end(), {run.cost, run.error, run.steps, static_cast<double>(run.cells)});
@@ -48,7 +48,7 @@ std::string pointLine(std::size_t index, const PointResult& r) {
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
-    if (cells.size() != 32) return {};
+    if (cells.size() != 33) return {};
     PointResult r;
     r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
     r.cause = outcomeOf(cells[3]);
@@ -72,11 +72,12 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.excess = cellNumber(cells[24]);
     r.floor = cellNumber(cells[25]);
     r.confirmedAt = cellNumber(cells[26]);
-    r.floorOf = cells[27];
-    r.reason = withCommas(cells[28]);
-    r.errors = numbersIn(cells[29]);
-    r.scheme = cellIndex(cells[30]);
-    const std::vector<double> tried = numbersIn(cells[31]);
+    r.bytes = cellNumber(cells[27]);
+    r.floorOf = cells[28];
+    r.reason = withCommas(cells[29]);
+    r.errors = numbersIn(cells[30]);
+    r.scheme = cellIndex(cells[31]);
+    const std::vector<double> tried = numbersIn(cells[32]);
     for (std::size_t i = 0; i + 3 < tried.size(); i += 4)
         r.tried.push_back({tried[i], tried[i + 1], tried[i + 2], static_cast<int>(tried[i + 3])});
     return r;
@@ -86,6 +87,7 @@ bool isSameButForTimes(PointResult a, PointResult b) {
     for (PointResult* r : {&a, &b}) {
         r->cpuSeconds = r->cpuSpread = r->predictedSeconds = PointResult::unknown;
         r->tried.clear();
+        r->bytes = PointResult::unknown;
     }
     return pointLine(0, a) == pointLine(0, b);
 }
@@ -108,6 +110,7 @@ Value optionsValue(const SweepOptions& options) {
     value.set("search time", options.searchSeconds);
     value.set("budget", options.budget);
     value.set("per time", options.isPerTime);
+    value.set("memory", options.mostBytes);
     value.set("rungs", arrayOf(options.rungs));
     value.set("over", textOf(options.over));
     value.set("knobs", textOf(options.knobs));
@@ -131,6 +134,7 @@ SweepOptions optionsOf(const Value& value) {
     options.searchSeconds = value.find("search time")->asNumber();
     options.budget = value.find("budget")->asNumber();
     options.isPerTime = value.find("per time")->asBool();
+    options.mostBytes = value.find("memory")->asNumber();
     options.rungs = numbersOf(*value.find("rungs"));
     options.knobs = parseKnobs(value.find("knobs")->asString());
     options.over = parseCases(value.find("over")->asString(), value.find("of")->asString());

@@ -180,6 +180,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
         {"--final", words("--final")},
         {"--repeat", words("--repeat -1")},
         {"--budget", words("--budget 1ms")},
+        {"--memory", words("--memory 1kB")},
         {"--wish", words("--wish energy=1e-5")},
         {"--candidates", words("--candidates all")},
         {"--search-time", words("--search-time soon")},

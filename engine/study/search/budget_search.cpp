@@ -44,7 +44,8 @@ private:
             point.tolerance = 1 / n;
         else if (!hasStepOfItsSpace(search_.scene, scheme_))
             point.step = length_ / n;
-        const CostLimit limit{.seconds = cutOff * search_.budget + least, .watch = &watch_};
+        const CostLimit limit{
+            .seconds = cutOff * search_.budget + least, .bytes = search_.bytes, .watch = &watch_};
         PointResult result =
             runPoint(search_.scene, point, search_.metrics, search_.reference(own_), 0, limit, stop_);
         if (result.isCutOff) {

@@ -22,10 +22,11 @@ struct BudgetSearch {
     std::span<const Metric> metrics;
     std::span<const double> wishes;  ///< one per metric: what errors are compared by
     std::function<ExactSolution(const StudyPoint&)> reference;
-    double referenceError = 0;  ///< its own: no run is better than that
-    double budget = 0;          ///< seconds of CPU for a run
-    double seconds = 1;         ///< of CPU for the search
-    int repeat = 5;             ///< timed runs of the best three
+    double referenceError = 0;                               ///< its own: no run is better than that
+    double budget = 0;                                       ///< seconds of CPU for a run
+    double seconds = 1;                                      ///< of CPU for the search
+    double bytes = std::numeric_limits<double>::infinity();  ///< that a scheme may hold (CostLimit)
+    int repeat = 5;                                          ///< timed runs of the best three
 };
 
 /// One result per candidate: status done and the excess where a run keeps within the budget; else failed,

@@ -193,6 +193,7 @@ void CandidateSearch::explainMesh(std::size_t index, double least, std::span<con
     result = knownAt(point, nearest->steps);
     result.excess = excessOf(result, wishes);
     result.status = RunStatus::failed;
+    if (result.cause == Outcome::refused) return;
     result.reason = isTimeUp() ? "the search ended after " + formatNumber(seconds_, 2) + " s"
                                : "no run below the best cost reaches it";
     if (!reason.empty()) {

@@ -130,7 +130,7 @@ RaceRun CandidateSearch::runOf(const StudyPoint& own, const ResolvedScheme& sche
     if (known == known_.end() || (known->second.result.isCutOff && known->second.cost < job.limit)) {
         // Before anyone has reached the wish, a run that goes wrong must not take all the time there is.
         constexpr double tooLong = 16, fewSeconds = 1e-3, littleWork = 1e4;
-        CostLimit limit{.watch = &watch_};
+        CostLimit limit{.bytes = mostBytes_, .watch = &watch_};
         (isCounted_ ? limit.work : limit.seconds) =
             std::min(job.limit, tooLong * job.predictedCost + (isCounted_ ? littleWork : fewSeconds));
         if (isCounted_) limit.work /= unknownsOf(own);
@@ -162,7 +162,7 @@ PointResult CandidateSearch::runCases(const StudyPoint& own, const StudyPoint& a
                                       const CostLimit& limit, std::span<const double> wishes) {
     if (cases_.empty()) return runPoint(scene_, at, metrics_, references_(own), repeat, limit, stop_);
     const auto count = static_cast<double>(cases_.size());
-    CostLimit left{limit.seconds * count, limit.work * count, limit.watch};
+    CostLimit left{limit.seconds * count, limit.work * count, limit.bytes, limit.watch};
     std::vector<PointResult> results;
     for (std::size_t i = 0; i < cases_.size() && !stop_.stop_requested(); ++i) {
         const SearchCase& each = cases_[i];
@@ -219,7 +219,7 @@ void CandidateSearch::nameFloor(std::size_t index, PointResult& result) const {
 std::string CandidateSearch::reasonOf(const CandidateRace& race, std::size_t index,
                                       const PointResult& nearest) const {
     const std::vector<RaceRun>& runs = race.runsOf(index);
-    if (!entries_[index] && runs.empty()) return "not tried: trials of others took half of the time";
+    if (!entries_[index] && runs.empty()) return "not tried: trials of others took a third of the time";
     switch (race.endOf(index)) {
         case RaceEnd::reached:
             return "reached at single steps only: a finer one fails";
@@ -363,8 +363,8 @@ std::vector<std::size_t> CandidateSearch::orderOfTrials() const {
 }
 
 CandidateRace CandidateSearch::raceFor(std::span<const double> wishes) {
-    // Half of the time belongs to the race.
-    constexpr double partOfTrials = 0.5;
+    // Most of the time belongs to the race.
+    constexpr double partOfTrials = 0.35;
     for (const std::size_t i : orderOfTrials()) {
         if (entries_[i] || stop_.stop_requested()) continue;
         if (!schemes_[i].isOfScene && spent_ > partOfTrials * seconds_) break;

@@ -54,6 +54,8 @@ public:
     }
 
     void setKnobs(SearchKnobs knobs) { knobs_ = knobs; }
+    /// Schemes that hold more are refused (CostLimit::bytes).
+    void setMostBytes(double bytes) { mostBytes_ = bytes; }
 
     /// One result per scheme: what reaches the wishes, one per metric, at the lowest cost, with status done;
     /// else the nearest, with status failed and the reason. Those that reach it are timed `repeat` times,
@@ -155,6 +157,7 @@ private:
     int useless_[std::size(trialLengths)] = {};  ///< schemes in a row that have no solution there
     std::map<Key, Known> known_;
     SearchKnobs knobs_;
+    double mostBytes_ = std::numeric_limits<double>::infinity();
     std::map<std::size_t, MeshFit> meshes_;          ///< by scheme
     std::map<std::size_t, double> firstSeconds_;     ///< of the first run of each, from a few steps of it
     std::map<std::size_t, double> confirmedMeshes_;  ///< steps that confirmed the best, of the last wish

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/heap_use.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text/text.hpp"
 #include "engine/run/march/motion_check.hpp"
 #include "engine/run/march/march_grid.hpp"
 #include "engine/run/march/state_values.hpp"
@@ -195,6 +197,27 @@ public:
         return cost;
     }
 
+    /// What it holds for itself (CostLimit::bytes), by copies of it after a step.
+    double bytes(const std::stop_token& stop) const {
+        constexpr double large = 1 << 20;
+        constexpr int several = 16;  // of small blocks the allocator keeps some back
+        const auto stepped = integrator_->clone();
+        State state = start_;
+        MarchGrid grid = grid_;
+        grid.budget = 1;
+        (void)march(*stepped, state, grid, {}, stop);
+        const auto held = [&](int count) {
+            std::vector<std::unique_ptr<Integrator>> copies;
+            copies.reserve(static_cast<std::size_t>(count));
+            const auto before = static_cast<double>(heapInUse());
+            for (int i = 0; i < count; ++i) copies.push_back(stepped->clone());
+            return std::max(0.0, static_cast<double>(heapInUse()) - before) / count;
+        };
+        double one = held(1);
+        if (one < large) one = held(several);
+        return one + static_cast<double>(sizeof(double) * (state.x.size() + state.memory.size()));
+    }
+
     /// `first`: what the measured run took, observers apart.
     void time(int repeat, double first, PointResult& result, const std::stop_token& stop) const {
         const Timing timing = timeRuns(*integrator_, start_, grid_, first, {repeat, shortest, longest}, stop);
@@ -229,6 +252,13 @@ bool watched(const CostLimit& limit, const std::stop_token& stop, Work&& work) {
     return false;
 }
 
+/// "63 MB".
+std::string textOfBytes(double bytes) {
+    for (const auto& [unit, name] : {std::pair{1e9, " GB"}, {1e6, " MB"}, {1e3, " kB"}})
+        if (bytes >= unit) return formatNumber(bytes / unit, 2) + name;
+    return formatNumber(bytes, 3) + " bytes";
+}
+
 }  // namespace
 
 double workOf(const PointResult& result, int nodes) { return workOf(result.cost, result.steps, nodes); }
@@ -252,9 +282,16 @@ PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, std::s
     PointResult result;
     try {
         PointRun run(scene, point);
+        double bytes = PointResult::unknown;
         const bool isTimeOver = watched(limit, stop, [&](const std::stop_token& inner) {
+            if (std::isfinite(limit.bytes)) bytes = run.bytes(inner);
+            if (bytes > limit.bytes) return;
             result = run.measure(metrics, std::move(reference), limit, inner);
         });
+        result.bytes = bytes;
+        if (bytes > limit.bytes)
+            throw InvalidScene("--memory",
+                               "holds " + textOfBytes(bytes) + ", more than " + textOfBytes(limit.bytes));
         if (isTimeOver && result.status == RunStatus::partial) {
             result.status = RunStatus::failed;
             result.isCutOff = true;

@@ -61,6 +61,7 @@ struct PointResult {
     double predictedSeconds = unknown;  ///< of a search: what a trial of a few steps says of the run
     double cpuSpread = unknown;         ///< half the distance between the fastest and the slowest repetition
     bool isCutOff = false;              ///< by a limit of its cost
+    double bytes = unknown;             ///< where they are limited: what a run of the scheme holds
     // Of a search:
     std::size_t scheme = 0;            ///< of a ladder of wishes: which one answers
     double excess = unknown;           ///< log of the largest error over what is wished of it
@@ -77,6 +78,9 @@ struct PointResult {
 struct CostLimit {
     double seconds = std::numeric_limits<double>::infinity();
     double work = std::numeric_limits<double>::infinity();  ///< as workOf()
+    /// That a run holds for itself: its state and the buffers of its steps, not tables and plans that all
+    /// runs of a scheme share. A scheme with more is refused.
+    double bytes = std::numeric_limits<double>::infinity();
     /// Cuts it off in the middle of a step as well; null: after some steps only.
     ProcessorWatch* watch = nullptr;
 };

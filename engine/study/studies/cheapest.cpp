@@ -121,10 +121,10 @@ std::vector<Value::Array> rowsOfPrices(const Sweep& sweep) {
                        leftOutOf(sweep, *row), positiveNumber(r.tolerance), name(r.status),
                        modelInPlace(sweep.scene(), row->point.scheme), knownNumber(r.excess),
                        knownNumber(r.floor), knownText(r.floorOf), knownNumber(r.confirmedAt), r.reason,
-                       errorsOf(sweep, r)});
+                       errorsOf(sweep, r), knownNumber(r.bytes)});
     }
     for (const RefusedCandidate& refused : sweep.refused()) {
-        Value::Array row(cheapestColumns().size(), Value(nullptr));
+        Value::Array row(cheapestColumns().size() + 1, Value(nullptr));
         row[1] = refused.label;
         row[10] = name(RunStatus::failed);
         row[16] = "refused: " + refused.reason;
@@ -165,6 +165,7 @@ StudyEntry cheapest() {
         {},
         ""};
     e.columns = cheapestColumns();
+    e.further = "bytes";
     e.rows = rowsOfPrices;
     e.summaryColumns = {"rank",  "scheme", "step",      "predicted cpu", "cpu seconds", "evaluations",
                         "error", "kept",   "tolerance", "status",        "all errors"};

@@ -45,7 +45,7 @@ std::vector<Value::Array> rungs(const Sweep& sweep) {
                        knownNumber(r.error), knownNumber(r.floor), knownText(r.floorOf),
                        positiveNumber(r.step), positiveNumber(r.tolerance), static_cast<double>(r.steps),
                        static_cast<double>(r.cost.evaluations), knownNumber(timesOfNext(sweep, i)),
-                       name(r.status), r.reason});
+                       name(r.status), r.reason, knownNumber(r.bytes)});
     }
     return all;
 }
@@ -108,6 +108,7 @@ StudyEntry needs() {
     e.over = StudyEntry::Over::wishes;
     e.columns = {"wish", "label",     "model", "knobs",       "cpu_seconds",   "error",  "floor", "floor_of",
                  "step", "tolerance", "steps", "evaluations", "times_of_next", "status", "reason"};
+    e.further = "bytes";
     e.rows = rungs;
     e.summaryColumns = {"down to", "scheme", "model", "kept", "cpu seconds", "error", "times the one above"};
     e.summary = summaryOfRungs;
