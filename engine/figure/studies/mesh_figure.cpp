@@ -88,7 +88,7 @@ Guide contourOf(const Plane& plane, const std::function<double(double x, double 
 
 /// Where a contour leaves the plane to the right, or above.
 Label endOf(const Plane& plane, const Guide& contour, std::string text) {
-    constexpr double inside = 0.96, above = 0.015;
+    constexpr double inside = 0.93, above = 0.015;
     std::size_t last = 0;
     for (std::size_t i = 0; i < contour.x.size(); ++i)
         if (contour.x[i] > contour.x[last]) last = i;
@@ -139,9 +139,10 @@ std::optional<Figure> meshFigure(const Sweep& sweep) {
     for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade < 10 * high; decade *= 10)
         if (std::abs(std::log10(decade / wish)) > 0.1) addErrors(decade, false, shortNumber(decade, 1));
     if (wish > 0) addErrors(wish, true, "wish " + shortNumber(wish, 2));
-    const MeshRun* const best = wish > 0 ? fit.best(wish) : nullptr;
-    if (best) {
-        const double cost = fit.relativeCostAt(best->cells, best->steps);
+    const int cells = cellsAt(sweep, {row->point.scheme, 0, 0, 0, row->result.reduction});
+    const auto steps = static_cast<double>(row->result.steps);
+    if (row->result.isDone()) {
+        const double cost = fit.relativeCostAt(cells, steps);
         Guide equal =
             contourOf(plane, [&](double n, double N) { return std::log(fit.relativeCostAt(N, n) / cost); });
         equal.isBroad = true;
@@ -149,9 +150,9 @@ std::optional<Figure> meshFigure(const Sweep& sweep) {
     }
     figure.add(std::move(runs));
     figure.subtitle = "errors as fitted to the runs, the dots";
-    if (best)
-        figure.subtitle += "; broad: what costs as much as " + std::to_string(best->cells) +
-                           " elements and " + shortNumber(best->steps) + " steps";
+    if (row->result.isDone())
+        figure.subtitle += "; broad: what costs as much as " + std::to_string(cells) + " elements and " +
+                           shortNumber(steps) + " steps";
     figure.summary = "Errors of " + spec.label + " over steps and elements, fitted to " +
                      std::to_string(row->result.tried.size()) + " runs.";
     return figure;
