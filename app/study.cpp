@@ -80,11 +80,28 @@ std::string tableText(const StudyTable& summary) {
     return table.text();
 }
 
+/// Where every scheme holds more than it may, the one that holds least; else null.
+const SweepRow* leastOfRefused(const Sweep& sweep) {
+    const SweepRow* least = nullptr;
+    for (const SweepRow& row : sweep.rows()) {
+        if (!(sweep.options().mostBytes > 0 && row.result.bytes > sweep.options().mostBytes)) return nullptr;
+        if (!least || row.result.bytes < least->result.bytes) least = &row;
+    }
+    return least;
+}
+
 /// Whether a wanted error was reached; if none did, says which scheme came nearest.
 bool isReached(const StudyEntry& study, const Sweep& sweep, const StudyTable& table) {
     if (study.over != StudyEntry::Over::wantedError) return true;
     const auto isDone = [](const SweepRow& row) { return row.result.isDone(); };
     if (std::any_of(sweep.rows().begin(), sweep.rows().end(), isDone)) return true;
+    if (const SweepRow* const least = leastOfRefused(sweep)) {
+        printProblem("--memory",
+                     "every scheme holds more; the least, " +
+                         sweep.scene().scene.schemes[least->point.scheme].label + ": " + least->result.reason,
+                     "a larger one, or --candidates all");
+        return false;
+    }
     if (sweep.options().budget > 0) {
         printProblem("--budget", "no scheme runs within it", "a larger one, or --candidates all");
         return false;
