@@ -34,6 +34,7 @@ StepReport FieldMarch::advance(State& state, double until) {
     report.step = h_;
     if (!isPrepared_) prepare();
     isPrepared_ = true;
+    begin_ = state.t;
     report.outcome = step(state.x.data(), other_.data(), report);
     if (report.outcome == Outcome::converged && !isChecked_ && !isFiniteAll(other_))
         report.outcome = Outcome::notFinite;
@@ -52,10 +53,14 @@ bool FieldMarch::checkpoint(Archive& archive) {
     return true;
 }
 
+bool FieldMarch::isHeld(std::size_t i) const {
+    return form_ && form_->problem().isFixed(static_cast<int>(i));
+}
+
 const std::vector<std::size_t>& FieldMarch::freeNodes() const {
     if (freeNodes_.empty())
         for (std::size_t i = 0; i < n_; ++i)
-            if (!form_ || !form_->problem().isFixed(static_cast<int>(i))) freeNodes_.push_back(i);
+            if (!isHeld(i)) freeNodes_.push_back(i);
     return freeNodes_;
 }
 
@@ -102,6 +107,7 @@ void FieldMarch::addForceChange(const std::vector<double>& hessian, const double
 void FieldMarch::denseOutput(double tau, std::span<double> x) const {
     State state;
     state.x = other_;
+    state.t = begin_;
     if (tau > 0) {
         const auto shorter = clone();
         shorter->setStep(tau * h_);

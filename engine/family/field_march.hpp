@@ -18,7 +18,7 @@ namespace extremal {
 class FieldMarch : public Integrator {
 public:
     FieldMarch(std::shared_ptr<const SpatialForm> form, double step);
-    /// Of n values that are all free, without form().
+    /// Of n values without form(), free unless isHeld() says otherwise.
     FieldMarch(std::size_t n, double step);
 
     double stepSize() const final { return h_; }
@@ -50,8 +50,13 @@ protected:
     virtual void prepare() {}
 
     const SpatialForm& form() const { return *form_; }
+    /// Whether number i of u stays as it is.
+    virtual bool isHeld(std::size_t i) const;
+
     std::size_t n() const { return n_; }
     double h() const { return h_; }
+    /// Of the level that the last step began at, or the one under way.
+    double begin() const { return begin_; }
     void setChecked() { isChecked_ = true; }
     /// The level before that of the state, after a step.
     const std::vector<double>& before() const { return other_; }
@@ -59,7 +64,7 @@ protected:
 private:
     std::shared_ptr<const SpatialForm> form_;
     std::size_t n_;
-    double h_;
+    double h_, begin_ = 0;
     const std::vector<std::size_t>& freeNodes() const;
 
     bool isPrepared_ = false, isChecked_ = false;
