@@ -21,6 +21,7 @@
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/table_of.hpp"
+#include "engine/model/parts/refused_because.hpp"
 #include "engine/quadrature/tensor.hpp"
 
 namespace extremal {
@@ -201,6 +202,9 @@ Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
 std::string mismatch(const Discretization& discretization, const System& system) {
     const Family* const family = familyOf(discretization.space);
     if (!family) return "there is no space \"" + discretization.space.type + "\"";
+    if (const auto* const because = system.parts.find<RefusedBecause>();
+        because && !isTaken(family->takes, system.parts))
+        return discretization.space.type + " cannot have " + system.id + ": " + because->reason;
     if (const std::string needed = neededInstead(family->takes, system.parts); !needed.empty())
         return discretization.space.type + " needs " + needed + ", which " + system.id + " is not";
     if (!appliesTo(*family, system))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/conservative.hpp"
 
+#include "engine/model/density/problem.hpp"
 #include "engine/model/mechanisms.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
@@ -14,6 +15,9 @@ std::string_view timeDependentPart(const System& system) {
         return "the Hamiltonian";
     if (const Wave* const wave = system.parts.find<Wave>(); wave && wave->hamiltonian->isTimeDependent())
         return "the potential";
+    if (const auto* const field = system.parts.find<DensityField>();
+        field && field->problem->density.isTimeDependent())
+        return "the Lagrangian";
     if (const Constraint* const g = system.parts.find<Constraint>(); g && g->isTimeDependent)
         return "a constraint";
     if (const Wall* const wall = system.parts.find<Wall>(); wall && wall->isTimeDependent) return "a wall";

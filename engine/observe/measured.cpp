@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "engine/model/density/part.hpp"
 #include "engine/model/spins/spins.hpp"
 #include "engine/model/first_order/poisson.hpp"
 #include "engine/model/group/lie_group.hpp"
@@ -26,7 +27,8 @@ Observer bindMeasure(const Measure& measure, const State& initial) {
 ObservableEntry measuredObservable(CatalogItem item) {
     ObservableEntry e;
     e.takes = plainProblems()
-                  .with<Interaction, LieGroup, Spheres, PhaseMechanics, Spins, PoissonStructure, Rotation>();
+                  .with<Interaction, LieGroup, Spheres, PhaseMechanics, Spins, PoissonStructure, Rotation,
+                        DensityField>();
     e.suits = [id = item.id](const System& system) { return measureOf(system, id) != nullptr; };
     e.bind = [id = item.id](const ObserveContext& context) {
         return bindMeasure(*measureOf(context.system, id), context.initial);

@@ -10,7 +10,8 @@ std::optional<typed::Formula> formulaOf(const ResolvedScene& scene) {
     const Settings& model = scene.scene.model;
     const ModelEntry* const entry = findModel(model.type);
     if (!entry) return {};
-    if (model.find("lagrangian")) return typed::formulaOf(model);
+    // Of a field it is a density, which is no function of coordinates.
+    if (model.find("lagrangian") && model.find("coordinates")) return typed::formulaOf(model);
     if (const auto* const form = scene.system->parts.find<WrittenForm>())
         return typed::formulaOf(form->settings);
     if (!entry->lagrangian) return {};

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/model/parts/refused_because.hpp"
 #include "engine/scene/resolve.hpp"
 
 #include <algorithm>
@@ -41,6 +42,8 @@ std::string refusalOf(const ResolvedScheme& scheme, const System& system) {
         return appliesTo(*scheme.family, system) ? std::string() : mismatch(scheme.discretization, system);
     const BaselineEntry& entry = *scheme.baseline;
     if (appliesTo(entry, system)) return {};
+    if (const auto* const because = system.parts.find<RefusedBecause>())
+        return entry.item.id + " cannot integrate " + system.id + ": " + because->reason;
     const std::string instead = neededInstead(entry.takes, system.parts);
     const std::string& needed = instead.empty() ? entry.item.needs : instead;
     return entry.item.id + " cannot integrate " + system.id + (needed.empty() ? "" : ": it needs " + needed);
@@ -184,17 +187,22 @@ void resolveSystem(ResolvedScheme& scheme, const Scene& scene) {
 ResolvedScheme refined(const ResolvedScheme& scheme, const ResolvedScene& resolved, int factor) {
     ResolvedScheme finer = scheme;
     const Settings& model = resolved.scene.model;
-    for (const Family& family : families()) {
-        const auto* const onFiner = family.parts.find<RefinedMesh>();
-        if (!onFiner || !appliesTo(family, *resolved.system)) continue;
+    const auto refine = [&](const RefinedMesh& onFiner) {
         std::optional<Settings> own;
         if (const auto* const mesh = scheme.family ? scheme.family->parts.find<OwnMesh>() : nullptr)
             own = mesh->model(scheme.discretization.space, model);
-        const Settings keys = onFiner->model(own.value_or(model), factor);
+        const Settings keys = onFiner.model(own.value_or(model), factor);
         finer.ownSystem = std::make_shared<const System>(findModel(model.type)->make(keys));
         finer.ownInitial = initialState(resolved.scene, *finer.ownSystem);
-        break;
+    };
+    for (const Family& family : families()) {
+        const auto* const onFiner = family.parts.find<RefinedMesh>();
+        if (!onFiner || !appliesTo(family, *resolved.system)) continue;
+        refine(*onFiner);
+        return finer;
     }
+    if (const auto* const own = scheme.baseline ? scheme.baseline->parts.find<RefinedMesh>() : nullptr)
+        refine(*own);
     return finer;
 }
 

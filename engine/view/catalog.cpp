@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/model/density/part.hpp"
 #include "engine/model/group/lie_group.hpp"
 #include "engine/view/catalog.hpp"
 
@@ -30,7 +31,7 @@ std::string missingFor(const View& view, const System& system) {
     const ObservableEntry* const observable = findObservable(entry->observable);
     const Takes takes = entry->takes ? *entry->takes
                         : observable ? observable->takes
-                                     : plainProblemsAndGroups();
+                                     : plainProblemsAndGroups().with<DensityField>();
     if (const std::string needed = neededInstead(takes, system.parts); !needed.empty()) return needed;
     if (observable && !appliesTo(*observable, system))
         return observable->item.needs.empty() ? "the observable " + entry->observable

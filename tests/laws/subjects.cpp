@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/family/parts/references.hpp"
+#include "engine/model/density/part.hpp"
 #include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/scene/bind.hpp"
@@ -163,7 +164,10 @@ std::vector<const Preset*> onePerModel() {
             continue;
         const std::string model = modelOf(preset.json);
         const bool isTyped = model == "lagrangian" || model == "hamiltonian";
-        if (seen.insert(isTyped ? std::string(preset.id) : model).second) all.push_back(&preset);
+        // Fields with a typed density are of another kind than those with a potential.
+        const bool hasDensity = model.starts_with("field") && has("\"lagrangian\"");
+        if (seen.insert(isTyped ? std::string(preset.id) : hasDensity ? model + ", typed" : model).second)
+            all.push_back(&preset);
     }
     return all;
 }
@@ -175,9 +179,11 @@ std::vector<Subject> everySubject(SubjectKind kind) {
         const Scene scene = readScene(preset->json).scene;
         const System system = makeSystem(scene);
         // The orders of fields are those of the mesh and the step together: laws.claims_fields.
-        // Membranes: tests/engine/family/asynchronous; rectangles: tests/engine/family/spectral_field.
+        // Membranes: tests/engine/family/asynchronous; rectangles: tests/engine/family/spectral_field; typed
+        // densities: tests/engine/baseline/implicit_cells_test.cpp.
         if (kindOfSubject(system) != kind || !system.isMotion() || system.parts.find<ScalarField>() ||
-            system.parts.find<Membrane>() || system.parts.find<PlaneField>())
+            system.parts.find<Membrane>() || system.parts.find<PlaneField>() ||
+            system.parts.find<DensityField>())
             continue;
         double longest = 0;
         for (const SchemeSpec& scheme : scene.schemes) longest = std::max(longest, 40 * scheme.step.value);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A scalar field in one dimension, u_tt = c^2 (a(x/epsilon) u_x)_x - W'(u): wave, Klein-Gordon, sine-Gordon,
-/// phi-4 equation, or a typed potential, on a periodic domain, between fixed values, or with free ends.
+/// phi-4 equation, or a typed potential, on a periodic domain, between fixed values, or with free ends; or a
+/// field with any typed Lagrangian density.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,6 +10,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/density/density_system.hpp"
 #include "engine/model/field/field_system.hpp"
 #include "engine/model/field/moving_field.hpp"
 #include "engine/model/field/profile.hpp"
@@ -35,6 +37,8 @@ std::vector<FieldInfo> fieldParameters() {
             "W(u): none, klein-gordon (mass² u²/2), sine-gordon (1 - cos u), phi4 ((u² - 1)²/4), of two "
             "components klein-gordon-complex or q-ball, or an expression in the components and mass."),
         notNegative("mass", "mass", "", 1, "m of the Klein-Gordon equation, and a name in W(u)."),
+        densityField("\"-sqrt(1 - u_t^2 + u_x^2)\""),
+        densityParametersField(),
         domain,
         choiceField("boundary", "boundary", {"periodic", "dirichlet", "neumann"},
                     "What holds at the ends: periodic, dirichlet: the values stay as they are at the "
@@ -103,11 +107,19 @@ System makeRow(const Settings& settings, const wave::Domain& domain) {
     return s;
 }
 
-System makeField(const Settings& settings) {
+/// A field with the density of these settings.
+std::shared_ptr<const DensityProblem> densityProblem(const Settings& settings) {
     const std::vector<double> ends = settings.numbers("domain");
-    if (!(ends[1] > ends[0]))
-        throw InvalidScene("/domain", "must go from left to right, got " + formatNumber(ends[0]) + " to " +
-                                          formatNumber(ends[1]));
+    const std::vector<std::string> names = componentNames(settings);
+    DensityProblem problem{names, FieldDensity(settings, names, 1)};
+    problem.along = {ends[0], ends[1] - ends[0]};
+    problem.cellsX = settings.integer("cells");
+    problem.boundary = boundaryNamed(settings.text("boundary"));
+    return std::make_shared<const DensityProblem>(std::move(problem));
+}
+
+System makeUsualField(const Settings& settings) {
+    const std::vector<double> ends = settings.numbers("domain");
     if (componentNames(settings) != std::vector<std::string>{"u"})
         return makeRow(settings, {ends[0], ends[1] - ends[0]});
     if (const Value* const speeds = settings.find("wave_speeds"); speeds && !speeds->isNull())
@@ -133,6 +145,34 @@ System makeField(const Settings& settings) {
     return s;
 }
 
+System makeField(const Settings& settings) {
+    const std::vector<double> ends = settings.numbers("domain");
+    if (!(ends[1] > ends[0]))
+        throw InvalidScene("/domain", "must go from left to right, got " + formatNumber(ends[0]) + " to " +
+                                          formatNumber(ends[1]));
+    if (!hasDensity(settings)) return makeUsualField(settings);
+    refuseKeysBesideDensity(settings);
+    const auto problem = densityProblem(settings);
+    const auto& usual = problem->density.usual();
+    const bool isRow = problem->components() > 1;
+    // Of several components the usual field is a periodic row.
+    if (!usual || (isRow && !problem->isPeriodic())) {
+        System s = makeDensitySystem(problem);
+        s.id = "field";
+        return s;
+    }
+    System s = makeUsualField(withPotential(settings, *usual));
+    const auto* const line = s.parts.find<ScalarField>();
+    if (!line || (!line->problem->hasMovingNodes && line->problem->nodes.degree == 1))
+        s.parts.set(TypedDensity{problem});
+    return s;
+}
+
+/// Of a density that no potential stands for.
+void checkField(const Settings&, const System& system, const State& initial) {
+    if (const auto* const own = system.parts.find<DensityField>()) checkDensityStart(*own->problem, initial);
+}
+
 }  // namespace
 
 ModelEntry field() {
@@ -140,7 +180,7 @@ ModelEntry field() {
     e.item = {"field",
               "field",
               "A field in one dimension, of one component or more: wave, Klein-Gordon, sine-Gordon, phi-4 or "
-              "typed potential.",
+              "typed potential, or any typed Lagrangian density.",
               fieldParameters(),
               {},
               ""};
@@ -149,6 +189,7 @@ ModelEntry field() {
     e.exampleEnd = 20;
     e.exampleStep = 0.1;
     e.make = makeField;
+    e.checkInitial = checkField;
     return e;
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A field of one component or more over a rectangle that is periodic in both directions, u_tt = c^2 (u_xx +
-/// u_yy) - W'(u): wave, Klein-Gordon, sine-Gordon, phi-4 equation, complex fields, or a typed potential.
+/// u_yy) - W'(u): wave, Klein-Gordon, sine-Gordon, phi-4 equation, complex fields, a typed potential, or any
+/// typed Lagrangian density.
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/core/problem.hpp"
+#include "engine/model/density/density_system.hpp"
 #include "engine/model/plane_field/plane_field_system.hpp"
 #include "engine/model/plane_field/settings.hpp"
 #include "engine/model/plane_field/start.hpp"
@@ -34,6 +36,8 @@ std::vector<FieldInfo> planeFieldParameters() {
                 "components klein-gordon-complex {lambda} or q-ball {a, b}, or an expression in the "
                 "components and mass."),
             notNegative("mass", "mass", "", 1, "m of the Klein-Gordon equation, and a name in W(u)."),
+            densityField("\"-sqrt(1 - u_t^2 + u_x^2 + u_y^2)\""),
+            densityParametersField(),
             sideField("domain", "domain in x", "x"),
             sideField("domain_y", "domain in y", "y"),
             integerField("cells", "N", 4, 4096, 64, "Number of nodes along x, even."),
@@ -49,9 +53,33 @@ System makePlaneField(const Settings& settings) {
                                " nodes with /cells, got " + std::to_string(grid.nx) + " x " +
                                std::to_string(grid.ny),
                            "512 x 512 and less");
-    System s = makePlaneFieldSystem(std::make_shared<const PlaneFieldProblem>(planeFieldOf(settings, grid)));
+    System s;
+    if (hasDensity(settings)) {
+        refuseKeysBesideDensity(settings);
+        const std::vector<std::string> names = componentNames(settings);
+        auto problem =
+            std::make_shared<DensityProblem>(DensityProblem{names, FieldDensity(settings, names, 2)});
+        problem->along = grid.x;
+        problem->across = grid.y;
+        problem->cellsX = grid.nx;
+        problem->cellsY = grid.ny;
+        if (const auto& usual = problem->density.usual()) {
+            s = makePlaneFieldSystem(std::make_shared<const PlaneFieldProblem>(
+                planeFieldOf(withPotential(settings, *usual), grid)));
+            s.parts.set(TypedDensity{std::move(problem)});
+        } else {
+            s = makeDensitySystem(std::move(problem));
+        }
+    } else {
+        s = makePlaneFieldSystem(std::make_shared<const PlaneFieldProblem>(planeFieldOf(settings, grid)));
+    }
     s.id = "field-2d";
     return s;
+}
+
+/// Of a density that no potential stands for.
+void checkPlane(const Settings&, const System& system, const State& initial) {
+    if (const auto* const own = system.parts.find<DensityField>()) checkDensityStart(*own->problem, initial);
 }
 
 }  // namespace
@@ -61,7 +89,7 @@ ModelEntry field_2d() {
     e.item = {"field-2d",
               "field in 2-D",
               "A field on a periodic rectangle, of one component or more: wave, Klein-Gordon, sine-Gordon, "
-              "phi-4, Q-ball or typed potential.",
+              "phi-4, Q-ball or typed potential, or any typed Lagrangian density.",
               planeFieldParameters(),
               {},
               ""};
@@ -70,6 +98,7 @@ ModelEntry field_2d() {
     e.exampleEnd = 10;
     e.exampleStep = 0.1;
     e.make = makePlaneField;
+    e.checkInitial = checkPlane;
     return e;
 }
 

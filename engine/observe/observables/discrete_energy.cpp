@@ -3,6 +3,7 @@
 /// first step: schemes with moving times keep it, those with a fixed step do not. The energy at the nodes is
 /// another thing.
 #include "engine/observe/catalog.hpp"
+#include "engine/model/density/part.hpp"
 
 namespace extremal::observables {
 
@@ -15,7 +16,7 @@ ObservableEntry discrete_energy() {
               {},
               {},
               "coordinates, or a field"};
-    e.takes = Takes::only<Mechanical, ScalarField>();
+    e.takes = Takes::only<Mechanical, ScalarField, DensityField>();
     e.bind = [](const ObserveContext& context) {
         const std::string& unit = context.system.energyUnit;
         return observeQuantity(context, "discrete_energy", {"discrete_energy", "E_d", unit, {}, {}},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Energy H(t, q, p) and its signed change H(t) - H(0): conserved by the flow of a time-independent
 /// Lagrangian.
+#include "engine/model/density/part.hpp"
 #include "engine/model/spins/spins.hpp"
 #include "engine/model/group/lie_group.hpp"
 #include "engine/model/group/spheres.hpp"
@@ -14,7 +15,8 @@ ObservableEntry energy() {
     ObservableEntry e;
     e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.",
               {},       {},       ""};
-    e.takes = plainProblemsAndMechanisms().with<Interaction, LieGroup, Spheres, Spins, Rotation>();
+    e.takes =
+        plainProblemsAndMechanisms().with<Interaction, LieGroup, Spheres, Spins, Rotation, DensityField>();
     e.suits = [](const System& system) { return static_cast<bool>(energyOf(system)); };
     e.bind = [](const ObserveContext& context) {
         Observer o;

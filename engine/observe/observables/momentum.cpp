@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/model/density/part.hpp"
 #include "engine/model/spins/spins.hpp"
 #include "engine/model/group/lie_group.hpp"
 #include "engine/model/group/spheres.hpp"
@@ -22,7 +23,7 @@ ObservableEntry momentum() {
               {},
               {},
               "a symmetry"};
-    e.takes = plainProblemsAndMechanisms().with<LieGroup, Spheres, Spins>();
+    e.takes = plainProblemsAndMechanisms().with<LieGroup, Spheres, Spins, DensityField>();
     e.suits = [](const System& system) { return measureOf(system, "momentum") || hasMomenta(system); };
     e.bind = [](const ObserveContext& context) {
         if (const Measure* mean = measureOf(context.system, "momentum"))

@@ -2,6 +2,7 @@
 /// How far each step is from keeping the symplectic form, max |M^T J M - J| with its tangent map M, and how
 /// far all steps together are, relative to the square of their tangent map. With constraints both are
 /// compared along their manifold. Forces do not keep the form: contraction says what they do.
+#include "engine/model/density/part.hpp"
 #include "engine/model/spins/spins.hpp"
 #include "engine/model/group/lie_group.hpp"
 #include "engine/model/mechanisms.hpp"
@@ -22,8 +23,8 @@ ObservableEntry symplecticity() {
         {{"symplecticity", "max |MᵀJM − J|", "", {}, {}},
          {"symplecticity_accumulated", "max |PᵀJP − J| / max |P|²", "", {}, {}}},
         {.map = true}, true);
-    e.takes = Takes::only<Mechanical, Body, LieGroup, Wave, ScalarField, Constraint, Wall, PhaseMechanics,
-                          Spins, OneForm, Spheres>();
+    e.takes = Takes::only<Mechanical, Body, LieGroup, Wave, ScalarField, DensityField, Constraint, Wall,
+                          PhaseMechanics, Spins, OneForm, Spheres>();
     return e;
 }
 

@@ -14,6 +14,7 @@
 #include "engine/family/family.hpp"
 #include "engine/family/parts/nodes.hpp"
 #include "engine/family/parts/references.hpp"
+#include "engine/model/density/part.hpp"
 #include "engine/model/parts/mesh_error.hpp"
 #include "engine/model/parts/on_other_mesh.hpp"
 #include "engine/model/typed/branches.hpp"
@@ -286,6 +287,14 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
         throw InvalidScene("/reference", "no exact solution is known from these initial data",
                            "use \"auto\"");
     if (onMeshes) return computedOnMesh(resolved, *onMeshes, stop);
+    if (system.parts.find<DensityField>()) {
+        Reference none;
+        none.info.problems = {{"/reference",
+                               "no scheme is trusted beyond others with a density of its own",
+                               "\"exact\" in the initial data where a solution is known, or a scheme with a "
+                               "short step as {\"type\": \"scheme\", ...}, for the error in time"}};
+        return none;
+    }
     Reference reference = computed(scene, system, initial, stop);
     if (const MeshError* const ofMesh = system.parts.find<MeshError>();
         ofMesh && reference.make && !stop.stop_requested())
