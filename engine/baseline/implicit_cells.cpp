@@ -101,6 +101,11 @@ private:
         for (std::size_t i = 0; i < size; ++i) u1[i] = problem_->isFixed(i) ? u[i] : u[i] + h() * v[i];
         const long long before = report.cost.iterations;
         Outcome found = position_.solve(positions(u, t), u1, stop(), report);
+        if (found != Outcome::converged && found != Outcome::stopped) {
+            // At rest a density is defined where it is not at that velocity.
+            std::copy_n(u, size, u1);
+            found = position_.solve(positions(u, t), u1, stop(), report);
+        }
         report.cost.evaluations +=
             slab_.evaluations() * (report.cost.iterations - before) + instant_.evaluations();
         if (found != Outcome::converged) return found;
