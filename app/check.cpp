@@ -6,6 +6,7 @@
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "engine/core/switching.hpp"
+#include "engine/core/text/indexed.hpp"
 #include "engine/family/kept_momenta.hpp"
 #include "engine/model/parts/written_form.hpp"
 #include "engine/model/typed/phase/motion_lines.hpp"
@@ -37,7 +38,7 @@ Value equationsValue(const ResolvedScene& resolved) {
 std::vector<SwitchingFunction> switchesOf(const ResolvedScene& resolved) {
     const Settings* const typed = typedSettings(resolved);
     if (!typed) return {};
-    return switchingFunctions(parseExpression(typed::formulaOf(*typed).text));
+    return switchingFunctions(parseWrittenOut(typed::formulaOf(*typed).text));
 }
 Value switchesValue(const ResolvedScene& resolved) {
     Value::Array all;

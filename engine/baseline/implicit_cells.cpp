@@ -38,6 +38,12 @@ public:
         return "Newton, " + std::to_string(n()) + " unknowns, band of " +
                std::to_string(2 * position_.reach() + 1);
     }
+    /// Factors of steps before it change the last digits.
+    void begin(State& state) override {
+        Integrator::begin(state);
+        position_.forget();
+        velocity_.forget();
+    }
     /// Instead of the factors, where they belong to.
     bool checkpoint(Archive& archive) override {
         FieldStep::checkpoint(archive);
@@ -50,6 +56,7 @@ public:
     }
 
 private:
+    using FieldStep::begin;  // of the time
     void prepare() override {
         slab_ = CellSum::ofSlab(problem_, space_, time_, h());
         position_.forget();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "engine/core/text/indexed.hpp"
 #include "engine/core/text/text.hpp"
 
 namespace extremal {
@@ -90,7 +91,7 @@ std::vector<SwitchingFunction> switchingFunctions(const Expression& expression) 
                                        [&](const SwitchingFunction& s) { return s.function.text == text; });
         if (same != found.end())
             same->mayJump = same->mayJump || mayJump;
-        else if (Expression function = parseExpression(text); !function.names().empty())
+        else if (Expression function = parseWrittenOut(text); !function.names().empty())
             found.push_back({std::move(function), mayJump});
     };
     for (const Expression::Node& node : expression.nodes) {

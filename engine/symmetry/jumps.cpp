@@ -101,10 +101,14 @@ bool Jump::isMovedBy(const Symmetry& s) const {
         sum += term;
         size += std::abs(term);
     };
-    std::vector<double> xi(d);
-    s.displacement(t, q.data(), xi.data());
+    // A relation of many coordinates reads few of them.
     for (std::size_t i = 0; i < d; ++i) {
-        add(gradient[i] * xi[i]);
+        if (gradient[i] != 0) {
+            double xi = s.b[i] + s.c[i] * t;
+            for (std::size_t j = 0; j < d; ++j) xi += s.A[i * d + j] * q[j];
+            add(gradient[i] * xi);
+        }
+        if (gradient[d + i] == 0) continue;
         add(gradient[d + i] * (s.c[i] - s.tau1 * v[i]));
         for (std::size_t j = 0; j < d; ++j) add(gradient[d + i] * s.A[i * d + j] * v[j]);
     }
@@ -145,9 +149,10 @@ namespace {
 template <class Relations>
 void addRelations(const Relations& part, const Mechanical& mechanics, std::vector<Jump>& to) {
     const auto n = static_cast<std::size_t>(part.count()), d = static_cast<std::size_t>(mechanics.dimension);
-    // More than there are displacements A q + b + c t, as any combination that a few of them keep would do.
-    constexpr std::size_t most = 400;
-    const std::size_t samples = std::min(most, 2 * (d * d + 2 * d + 4));
+    // More than there are displacements A q + b + c t, as any combination that a few of them keep would do;
+    // of many coordinates, whose symmetries are not combined from samples but are candidates, a few tell.
+    constexpr std::size_t most = 400, few = 16;
+    const std::size_t samples = d > mostSampledCoordinates ? few : std::min(most, 2 * (d * d + 2 * d + 4));
     std::vector<double> value(n), byPlace(n * d), byTime(n);
     StateSampler sampler(mechanics, 1736);
     SampledState state;

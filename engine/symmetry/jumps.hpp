@@ -13,6 +13,9 @@
 
 namespace extremal {
 
+/// Symmetries of systems with more coordinates are not combined from samples: candidates alone are tried.
+inline constexpr std::size_t mostSampledCoordinates = 8;
+
 /// A place on a jump, and the derivatives of s.
 struct Jump {
     double t = 0;

@@ -17,8 +17,6 @@
 namespace extremal {
 namespace {
 
-constexpr int mostCoordinates = 8;  ///< of the search by linear algebra
-
 /// The product of the coordinates of a term.
 double productOf(const GaugeTerm& term, const double* q) {
     double product = 1;
@@ -177,7 +175,7 @@ bool movesAlike(const Symmetry& a, const Symmetry& b) {
 std::vector<Symmetry> search(const System& system, const std::vector<Jump>& relations) {
     constexpr double exact = 1e-10, almost = 1e-4;
     const Mechanical& mechanics = system.mechanics();
-    const bool isSmall = system.dimension() <= mostCoordinates;
+    const bool isSmall = static_cast<std::size_t>(system.dimension()) <= mostSampledCoordinates;
     const std::vector<SampledState> states = freshStates(mechanics);
     std::vector<Jump> jumps = jumpsOf(mechanics);
     jumps.insert(jumps.end(), relations.begin(), relations.end());
