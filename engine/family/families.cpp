@@ -204,7 +204,7 @@ std::string mismatch(const Discretization& discretization, const System& system)
     if (!family) return "there is no space \"" + discretization.space.type + "\"";
     if (const auto* const because = system.parts.find<RefusedBecause>();
         because && !isTaken(family->takes, system.parts))
-        return discretization.space.type + " cannot have " + system.id + ": " + because->reason;
+        return discretization.space.type + " is not for this " + system.id + ": " + because->reason;
     if (const std::string needed = neededInstead(family->takes, system.parts); !needed.empty())
         return discretization.space.type + " needs " + needed + ", which " + system.id + " is not";
     if (!appliesTo(*family, system))

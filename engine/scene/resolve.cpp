@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/parts/refused_because.hpp"
 #include "engine/scene/resolve.hpp"
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/at_switches.hpp"
 #include "engine/integrator/composition.hpp"
+#include "engine/model/parts/refused_because.hpp"
 #include "engine/phase/monitored.hpp"
 #include "engine/phase/monitored_step.hpp"
 #include "engine/scene/bind.hpp"

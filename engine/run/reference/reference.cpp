@@ -289,8 +289,7 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     if (onMeshes) return computedOnMesh(resolved, *onMeshes, stop);
     if (system.parts.find<DensityField>()) {
         Reference none;
-        none.info.problems = {{"/reference",
-                               "no scheme is trusted beyond others with a density of its own",
+        none.info.problems = {{"/reference", "no scheme is trusted beyond others with a density of its own",
                                "\"exact\" in the initial data where a solution is known, or a scheme with a "
                                "short step as {\"type\": \"scheme\", ...}, for the error in time"}};
         return none;

@@ -136,7 +136,8 @@ private slots:
         QCOMPARE(scheme.discretization.space.integer("degree"), 3);
     }
     void knobsAreNamed() {
-        QVERIFY(parseKnobs("") == SearchKnobs{} && parseKnobs("step,degree,cells,modes,courant") == SearchKnobs{});
+        QVERIFY(parseKnobs("") == SearchKnobs{} &&
+                parseKnobs("step,degree,cells,modes,courant") == SearchKnobs{});
         QVERIFY((parseKnobs("step") == SearchKnobs{false, false, false, false}));
         QVERIFY(parseKnobs(textOf(SearchKnobs{false, true})) == (SearchKnobs{false, true}));
         QVERIFY(parseKnobs("step,tolerance").isTolerance && !SearchKnobs{}.isTolerance);
