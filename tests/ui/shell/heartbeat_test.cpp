@@ -250,8 +250,10 @@ private slots:
         scene.set("views", Value(Value::Array{"stage", "energy", "error", "phase"}));
         QVERIFY(window_->workspace().adopt(scene));
         for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();  // another scene has other forms
-        const double longest = longestOf([this] { window_->runControl().start(); });
-        QVERIFY2(longest < allowed(), qPrintable(QString("%1 ms").arg(1e3 * longest)));
+        QVERIFY(isSoon([this] {
+            window_->runControl().stop();
+            return longestOf([this] { window_->runControl().start(); });
+        }));
     }
 };
 
