@@ -2,13 +2,14 @@
 #include "engine/family/multiscale/fewer_harmonics.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/core/text/text.hpp"
 
 namespace extremal {
 namespace {
 
-/// What the keys say of a space; degrees of 0 where there is none.
+/// What the keys say of a space. A degree is 0 where the space does not say it.
 struct Contents {
     int slow = 0, fast = 0;
     std::vector<int> harmonics;
@@ -43,12 +44,10 @@ Settings with(const Settings& space, const Contents& contents) {
     Settings smaller = space;
     Value::Array degrees;
     for (const int degree : contents.harmonics) degrees.emplace_back(static_cast<double>(degree));
-    for (auto& [key, value] : smaller.keys) {
-        if (key == "degree") value = static_cast<double>(contents.slow);
-        if (key == "harmonics") value = degrees;
-        if (key == "fast" && contents.fast > 0)
-            value = Value::Object{{"degree", static_cast<double>(contents.fast)}};
-    }
+    setKey(smaller, "degree", static_cast<double>(contents.slow));
+    setKey(smaller, "harmonics", std::move(degrees));
+    if (contents.fast > 0)
+        setKey(smaller, "fast", Value::Object{{"degree", static_cast<double>(contents.fast)}});
     return smaller;
 }
 

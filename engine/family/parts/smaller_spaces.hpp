@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/settings.hpp"
+#include "engine/core/set_key.hpp"
 #include "engine/model/parts.hpp"
 
 namespace extremal {
@@ -40,13 +40,15 @@ inline std::vector<SmallerSpace> thinnedSpaces(const Settings& space, const char
         count = static_cast<int>(std::floor(part * count / multiple)) * multiple;
         if (count < least) break;
         SmallerSpace smaller{space, static_cast<double>(count) / whole};
-        bool isThere = false;
-        for (auto& [name, value] : smaller.space.keys)
-            if (name == key) value = static_cast<double>(count), isThere = true;
-        if (!isThere) smaller.space.keys.emplace_back(key, static_cast<double>(count));
+        setKey(smaller.space, key, static_cast<double>(count));
         all.push_back(std::move(smaller));
     }
     return all;
+}
+
+/// "48 modes".
+inline std::string textOfModes(const Settings& space) {
+    return std::to_string(space.integer("modes")) + " modes";
 }
 
 }  // namespace extremal

@@ -205,8 +205,6 @@ std::vector<SmallerSpace> fewerModes(const Settings& space, const Settings& mode
     return thinnedSpaces(space, "modes", whole, leastModes, 2);
 }
 
-std::string textOfModes(const Settings& space) { return std::to_string(space.integer("modes")) + " modes"; }
-
 ChoiceGrid choices(const System& system) {
     ChoiceGrid grid;
     grid.subtitle = "nodes × degree in time";

@@ -227,8 +227,6 @@ std::vector<SmallerSpace> fewerModes(const Settings& space, const Settings& mode
 /// 0: those of the model.
 int modesIn(const Settings& space) { return space.find("modes") ? space.integer("modes") : 0; }
 
-std::string textOfModes(const Settings& space) { return std::to_string(space.integer("modes")) + " modes"; }
-
 ChoiceGrid choices(const System& system) {
     const bool isPeriodic = !hasDirichletBoundary(system);
     const auto row = [&](int degree, const char* form) -> SpaceRow {

@@ -2,6 +2,7 @@
 #include "engine/study/search/reductions.hpp"
 
 #include "engine/core/problem.hpp"
+#include "engine/core/set_key.hpp"
 #include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/smaller_spaces.hpp"
 #include "engine/family/parts/steps.hpp"
@@ -13,14 +14,6 @@ namespace {
 int wholeNumber(const Settings& settings, const char* key) {
     const Value* value = settings.find(key);
     return value && value->isNumber() ? settings.integer(key) : 0;
-}
-
-void set(Settings& settings, const char* key, double value) {
-    bool isThere = false;
-    for (auto& [name, present] : settings.keys)
-        if (name == key) present = value, isThere = true;
-    if (!isThere) settings.keys.emplace_back(key, value);
-    std::erase_if(settings.expressions, [&](const Value::Member& m) { return m.first == key; });
 }
 
 /// Null: the step is not proportional to a key of the space.
@@ -35,7 +28,7 @@ std::vector<SmallerSpace> smallerSpacesOf(const ResolvedScheme& scheme, const Re
     const auto* const smaller = scheme.family ? scheme.family->parts.find<SmallerSpaces>() : nullptr;
     if (!smaller || scheme.isComposed() || scheme.isTested()) return {};
     Settings space = scheme.discretization.space;
-    if (to.degree > 0) set(space, "degree", to.degree);
+    if (to.degree > 0) setKey(space, "degree", static_cast<double>(to.degree));
     return smaller->of(space, scene.scene.model);
 }
 
@@ -70,8 +63,7 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
     SchemeSpec spec = scheme.spec;
     if (to.solver > 0) {
         if (spec.solver.type.empty()) spec.solver.type = "auto";
-        std::erase_if(spec.solver.keys, [](const Value::Member& m) { return m.first == "tolerance"; });
-        spec.solver.keys.emplace_back("tolerance", to.solver);
+        setKey(spec.solver, "tolerance", to.solver);
     }
     if (to.degree > 0 || to.cells > 0 || to.stepFactor > 0 || to.smaller > 0) {
         spec.kind = SchemeSpec::Kind::discretization;
@@ -80,8 +72,8 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
         spec.quadrature = scheme.discretization.quadrature;
     }
     if (to.degree > 0) {
-        set(spec.space, "degree", to.degree);
-        set(spec.quadrature, "nodes", to.nodes);
+        setKey(spec.space, "degree", static_cast<double>(to.degree));
+        setKey(spec.quadrature, "nodes", static_cast<double>(to.nodes));
     }
     if (to.smaller > 0) {
         const std::vector<SmallerSpace> all = smallerSpacesOf(scheme, to, scene);
@@ -93,11 +85,11 @@ ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const 
         if (to.degree == 0) spec.quadrature = scheme.spec.quadrature;
         if (spec.quadrature.type.empty()) spec.quadrature.type = "auto";
     }
-    if (to.cells > 0) set(spec.space, "cells", to.cells);
+    if (to.cells > 0) setKey(spec.space, "cells", static_cast<double>(to.cells));
     if (to.stepFactor > 0) {
         const char* const key = factorKey(scheme);
         const double own = scheme.discretization.space.number(key);
-        set(spec.space, key, to.stepFactor);
+        setKey(spec.space, key, to.stepFactor);
         spec.step = {scheme.spec.step.value * to.stepFactor / own, {}};
     }
     ResolvedScheme result = resolve(spec, scene.system.get());
