@@ -96,9 +96,11 @@ bool isReached(const StudyEntry& study, const Sweep& sweep, const StudyTable& ta
     const auto isDone = [](const SweepRow& row) { return row.result.isDone(); };
     if (std::any_of(sweep.rows().begin(), sweep.rows().end(), isDone)) return true;
     if (const SweepRow* const least = leastOfRefused(sweep)) {
+        const std::string& reason = least->result.reason;
         printProblem("--memory",
-                     "every scheme holds more; the least, " +
-                         sweep.scene().scene.schemes[least->point.scheme].label + ": " + least->result.reason,
+                     "no scheme holds so little: the leanest, " +
+                         sweep.scene().scene.schemes[least->point.scheme].label + ", " +
+                         reason.substr(std::min(reason.find("holds"), reason.size())),
                      "a larger one, or --candidates all");
         return false;
     }

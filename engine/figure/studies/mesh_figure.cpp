@@ -52,16 +52,25 @@ struct Plane {
     double y(double part) const { return bottom * std::pow(top / bottom, part); }
 };
 
-/// Where f is 0, segment by segment, by its signs at the corners of a grid.
-Guide contourOf(const Plane& plane, const std::function<double(double x, double y)>& f) {
-    constexpr int count = 160;
+constexpr int gridCount = 160;
+
+/// f over a grid of the plane, column by column.
+std::vector<double> valuesOver(const Plane& plane, const std::function<double(double x, double y)>& f) {
+    std::vector<double> values;
+    for (int i = 0; i <= gridCount; ++i)
+        for (int j = 0; j <= gridCount; ++j)
+            values.push_back(f(plane.x(double(i) / gridCount), plane.y(double(j) / gridCount)));
+    return values;
+}
+
+/// Where such values are `level`, segment by segment, by what they are at the corners of each cell.
+Guide contourOf(const Plane& plane, const std::vector<double>& values, double level) {
+    constexpr int count = gridCount;
     constexpr double gap = PointResult::unknown;
     Guide guide;
-    std::vector<double> values;
-    for (int i = 0; i <= count; ++i)
-        for (int j = 0; j <= count; ++j)
-            values.push_back(f(plane.x(double(i) / count), plane.y(double(j) / count)));
-    const auto at = [&](int i, int j) { return values[static_cast<std::size_t>(i * (count + 1) + j)]; };
+    const auto at = [&](int i, int j) {
+        return values[static_cast<std::size_t>(i * (count + 1) + j)] - level;
+    };
     for (int i = 0; i < count; ++i)
         for (int j = 0; j < count; ++j) {
             const int corners[5][2] = {{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}, {i, j}};
@@ -128,9 +137,10 @@ std::optional<Figure> meshFigure(const Sweep& sweep) {
     figure.y = logAxis("elements N");
     figure.x.range = {plane.left, plane.right};
     figure.y.range = {plane.bottom, plane.top};
+    const std::vector<double> errors =
+        valuesOver(plane, [&](double n, double N) { return std::log(fit.errorAt(N, n)); });
     const auto addErrors = [&](double error, bool isStrong, const std::string& text) {
-        Guide line =
-            contourOf(plane, [&](double n, double N) { return std::log(fit.errorAt(N, n) / error); });
+        Guide line = contourOf(plane, errors, std::log(error));
         if (line.x.empty()) return;
         line.isStrong = isStrong;
         figure.add(endOf(plane, line, text));
@@ -142,9 +152,8 @@ std::optional<Figure> meshFigure(const Sweep& sweep) {
     const int cells = cellsAt(sweep, {row->point.scheme, 0, 0, 0, row->result.reduction});
     const auto steps = static_cast<double>(row->result.steps);
     if (row->result.isDone()) {
-        const double cost = fit.relativeCostAt(cells, steps);
-        Guide equal =
-            contourOf(plane, [&](double n, double N) { return std::log(fit.relativeCostAt(N, n) / cost); });
+        const auto cost = [&](double n, double N) { return std::log(fit.relativeCostAt(N, n)); };
+        Guide equal = contourOf(plane, valuesOver(plane, cost), cost(steps, cells));
         equal.isBroad = true;
         figure.add(std::move(equal));
     }
