@@ -2,7 +2,11 @@
 #include "engine/model/lagrangian_terms.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <memory>
+
+#include "engine/core/memo_cache.hpp"
 
 namespace extremal {
 namespace {
@@ -90,6 +94,13 @@ private:
 };
 
 }  // namespace
+
+GivesTerms madeOnce(GivesTerms make) {
+    using Terms = std::vector<LagrangianTerm<double>>;
+    const auto known = std::make_shared<CountedCache<int, Terms>>(1);
+    const std::string name = "terms " + std::to_string(std::bit_cast<std::uintptr_t>(known.get()));
+    return [known, name, make = std::move(make)] { return known->get(0, name, make); };
+}
 
 std::vector<LagrangianTerm<double>> termsOf(const Mechanics<double>& mechanics) {
     if (mechanics.terms) return mechanics.terms();

@@ -5,6 +5,7 @@
 /// 1/2 sum_i m_i v_i^2, and "potential", -V(t, q). Others have none, and one rule for all.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +14,11 @@
 
 namespace extremal {
 
-/// The names alone, which cost nothing.
+using GivesTerms = std::function<std::vector<LagrangianTerm<double>>()>;
+/// What gives the terms that are made by `make`, when they are asked for first. They are kept, as every
+/// scheme with rules for terms asks for them several times, and differentiating them takes long.
+GivesTerms madeOnce(GivesTerms make);
+
 std::vector<std::string> termNames(const Mechanics<double>& mechanics);
 std::vector<LagrangianTerm<double>> termsOf(const Mechanics<double>& mechanics);
 /// One term that is the sum of several.

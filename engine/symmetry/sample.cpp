@@ -8,10 +8,26 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/core/work.hpp"
+#include "engine/model/typed/typed_mechanics.hpp"
+
 namespace extremal {
+namespace {
+
+/// The operations of one evaluation of L and its derivatives; an entry each where L is not typed.
+double workOf(const Mechanical& mechanics) {
+    const double size = 2 * mechanics.dimension;
+    const typed::Tape* const tape = typed::jetTapeOf(mechanics);
+    return size * size + (tape ? static_cast<double>(tape->length()) : 0);
+}
+
+}  // namespace
 
 StateSampler::StateSampler(const Mechanical& mechanics, unsigned seed)
-    : mechanics_(&mechanics), random_(seed), landmarks_(typed::landmarksOf(mechanics)) {
+    : mechanics_(&mechanics),
+      work_(workOf(mechanics)),
+      random_(seed),
+      landmarks_(typed::landmarksOf(mechanics)) {
     const auto d = static_cast<std::size_t>(mechanics.dimension);
     gradient_.resize(2 * d);
     hessian_.resize(4 * d * d);
@@ -33,10 +49,15 @@ StateSampler::StateSampler(const Mechanical& mechanics, unsigned seed)
     period_ = periods[periods.size() / 2];
 }
 
-double StateSampler::value(double t, const double* q, const double* v) const {
+double StateSampler::jet(double t, const double* q, const double* v, double* gradient) const {
+    work::spend(work_);
     double L = 0;
-    mechanics_->jet(mechanics_->model.get(), t, q, v, &L, gradient_.data(), hessian_.data());
+    mechanics_->jet(mechanics_->model.get(), t, q, v, &L, gradient, hessian_.data());
     return L;
+}
+
+double StateSampler::value(double t, const double* q, const double* v) const {
+    return jet(t, q, v, gradient_.data());
 }
 
 double StateSampler::timeDerivative(double t, const double* q, const double* v) const {
@@ -83,8 +104,7 @@ void StateSampler::draw(SampledState& state) {
 }
 
 bool StateSampler::evaluate(SampledState& state) {
-    mechanics_->jet(mechanics_->model.get(), state.t, state.q.data(), state.v.data(), &state.L,
-                    state.gradient.data(), hessian_.data());
+    state.L = jet(state.t, state.q.data(), state.v.data(), state.gradient.data());
     state.Lt = timeDerivative(state.t, state.q.data(), state.v.data());
     return std::isfinite(state.L) && std::isfinite(state.Lt) &&
            std::all_of(state.gradient.begin(), state.gradient.end(),

@@ -4,7 +4,8 @@
 /// Places are of sizes 0.3 to 10; each velocity is such that its kinetic energy is as large as the work of
 /// the force along the size, m v^2 = |L_q| size, whatever the units. In half of the states most velocities
 /// are zero, so that light bodies are seen beside heavy ones. What a typed formula has elsewhere, such as a
-/// pulse at t = 50, is seen at further states near its landmarks (model/typed/landmarks.hpp).
+/// pulse at t = 50, is seen at further states near its landmarks (model/typed/landmarks.hpp). Evaluations
+/// spend work (core/work.hpp).
 #pragma once
 
 #include <random>
@@ -39,10 +40,13 @@ public:
 
 private:
     void draw(SampledState& state);
+    /// L, with its derivatives in gradient and hessian_.
+    double jet(double t, const double* q, const double* v, double* gradient) const;
     double value(double t, const double* q, const double* v) const;
     double uniform() { return 2 * static_cast<double>(random_()) / 4294967295.0 - 1; }
 
     const Mechanical* mechanics_;
+    double work_;  ///< of one evaluation
     std::mt19937 random_;
     double period_ = 1;  ///< typical size over velocity
     long long drawn_ = 0;

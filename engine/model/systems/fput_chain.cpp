@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/model/bind_runtime.hpp"
+#include "engine/model/lagrangian_terms.hpp"
 #include "engine/model/parameters.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
@@ -161,7 +162,7 @@ System makeFputChain(const Settings& settings) {
             {std::to_string(i), "displacement " + std::to_string(i), "q_" + std::to_string(i), "", ""});
     Mechanics<double> mechanics = bindRuntime(model);
     if (model.dimension() <= static_cast<int>(typed::fewCoordinates))
-        mechanics.terms = [model] { return chainTerms(model); };
+        mechanics.terms = madeOnce([model] { return chainTerms(model); });
     s.parts.set(std::move(mechanics));
     // Every displacement has a slow part as well.
     s.fast = {std::sqrt(2 * model.kStiff / model.m),

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/model/bind.hpp"
+#include "engine/model/lagrangian_terms.hpp"
 #include "engine/model/parameters.hpp"
 #include "engine/model/slow/spring_models.hpp"
 #include "engine/model/system.hpp"
@@ -94,14 +95,14 @@ System makeSpringPendulum(const Settings& settings) {
     s.timeUnit = "s";
     s.energyUnit = "J";
     Mechanics<double> mechanics = bindMechanics<double>(model);
-    mechanics.terms = [model] {
+    mechanics.terms = madeOnce([model] {
         typed::Formula f{
             {"a", "theta"}, {{"m", model.m}, {"g", model.g}, {"l", model.l}, {"k", model.k}}, ""};
         f.terms = {{"kinetic", "m/2*(a_t^2 + (l+a)^2*theta_t^2)"},
                    {"fast", "-k/2*a^2"},
                    {"slow", "m*g*(l+a)*cos(theta)"}};
         return typed::makeTerms(f);
-    };
+    });
     s.parts.set(std::move(mechanics));
     s.fast = {std::sqrt(model.k / model.m),
               {0},

@@ -2,6 +2,9 @@
 #include "engine/model/typed/landmarks.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "engine/core/work.hpp"
 
 namespace extremal::typed {
 namespace {
@@ -32,16 +35,20 @@ Landmarks::Landmarks(const Graph& graph, int root, int inputs) {
     std::stable_sort(sums.begin(), sums.end(),
                      [&](int a, int b) { return (graph.at(a).number != 0) > (graph.at(b).number != 0); });
     sums.resize(std::min(sums.size(), most));
-    for (const int sum : sums) symbols_.push_back(symbolsBelow(graph, sum, inputs));
-    tape_ = Tape::of(graph, sums, inputs);
+    for (const int sum : sums) {
+        symbols_.push_back(symbolsBelow(graph, sum, inputs));
+        tapes_.push_back(Tape::of(graph, std::array{sum}, inputs));
+    }
 }
 
 double Landmarks::value(std::size_t k, const double* inputs) const {
+    const Tape& tape = tapes_[k];
+    work::spend(static_cast<double>(tape.registers()));
     thread_local std::vector<double> registers;
-    if (registers.size() < tape_.registers()) registers.resize(tape_.registers());
-    std::copy_n(inputs, tape_.inputs(), registers.begin());
-    tape_.run(registers.data());
-    return tape_.output(k, registers.data());
+    if (registers.size() < tape.registers()) registers.resize(tape.registers());
+    std::copy_n(inputs, tape.inputs(), registers.begin());
+    tape.run(registers.data());
+    return tape.output(0, registers.data());
 }
 
 }  // namespace extremal::typed

@@ -29,11 +29,11 @@ public:
     std::size_t size() const { return symbols_.size(); }
     /// The inputs that a sum depends on, ascending.
     const std::vector<int>& symbols(std::size_t k) const { return symbols_[k]; }
-    /// The value of a sum.
+    /// The value of a sum. Spends work.
     double value(std::size_t k, const double* inputs) const;
 
 private:
-    Tape tape_;
+    std::vector<Tape> tapes_;
     std::vector<std::vector<int>> symbols_;
 };
 

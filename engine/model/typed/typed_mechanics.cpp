@@ -453,6 +453,9 @@ const Landmarks* landmarksOf(const Mechanics<double>& mechanics) {
 const Tape* gradientTapeOf(const Mechanics<double>& mechanics) {
     return mechanics.jet == jet ? &self(mechanics.model.get()).gradient : nullptr;
 }
+const Tape* jetTapeOf(const Mechanics<double>& mechanics) {
+    return mechanics.jet == jet ? &self(mechanics.model.get()).jet : nullptr;
+}
 std::shared_ptr<const Branches> branchesOf(const Mechanics<double>& mechanics) {
     return mechanics.jet == jet ? self(mechanics.model.get()).branches : nullptr;
 }
@@ -460,9 +463,7 @@ std::shared_ptr<const Branches> branchesOf(const Mechanics<double>& mechanics) {
 TypedMechanics makeMechanics(const Formula& formula) {
     const auto symbolic = differentiate(formula);
     Numeric numeric(*symbolic, formula);
-    TypedMechanics made = Builder(formula, numeric).build();
-    if (!formula.terms.empty()) made.mechanics.terms = [formula] { return makeTerms(formula); };
-    return made;
+    return Builder(formula, numeric).build();
 }
 
 std::vector<LagrangianTerm<double>> makeTerms(const Formula& formula, std::string* throwing) {

@@ -22,7 +22,7 @@ struct TypedMechanics {
     std::vector<int> cyclic;  ///< coordinates with dL/dq = 0: their momenta are conserved
 };
 
-/// Throws ExpressionError.
+/// Without its terms (makeTerms). Throws ExpressionError.
 TypedMechanics makeMechanics(const Formula& formula);
 
 /// The same derivatives by their entries, of mechanics made above.
@@ -30,6 +30,8 @@ LagrangianEntries entriesOf(const Mechanics<double>& mechanics);
 
 /// What computes its gradient in (q, v) from (q, v, t); null where the Lagrangian is not typed.
 const Tape* gradientTapeOf(const Mechanics<double>& mechanics);
+/// What computes its value, gradient and Hessian; null as above.
+const Tape* jetTapeOf(const Mechanics<double>& mechanics);
 
 /// The terms of a Lagrangian that is typed in terms. Throws ExpressionError; `throwing`, where it is not
 /// null, is then the name of the term.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -116,9 +117,11 @@ Formula formulaOf(const Settings& given) {
 TypedMechanics mechanicsOf(const Formula& formula) {
     std::string term;
     try {
-        makeTerms(formula, &term);
+        const auto terms =
+            std::make_shared<const std::vector<LagrangianTerm<double>>>(makeTerms(formula, &term));
         term.clear();
         TypedMechanics made = makeMechanics(formula);
+        if (!terms->empty()) made.mechanics.terms = [terms] { return *terms; };
         if (const auto fault = degeneracy(formula, made.mechanics)) throw InvalidScene("/lagrangian", *fault);
         return made;
     } catch (const ExpressionError& e) {

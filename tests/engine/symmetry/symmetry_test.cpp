@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "engine/core/text/text.hpp"
+#include "engine/core/work.hpp"
 #include "engine/family/kept_momenta.hpp"
+#include "engine/model/lagrangian_terms.hpp"
 #include "engine/scene/preset.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/symmetry/conserved.hpp"
@@ -358,6 +360,33 @@ private slots:
         QVERIFY(drift("translation.x") <= 1e-14);
         QVERIFY(drift("boost.x") <= 1e-13);
         QVERIFY(drift("rotation.x-y") > 1e-10);
+    }
+    /// A scene is read within a budget of operations: those of a formula at many states are counted as well.
+    void evaluationsAtStatesAreCounted() {
+        const auto spentOn = [](const char* range) {
+            const System system = laws::systemNamed(
+                "lagrangian",
+                {{"coordinates", Value(Value::Array{Value("x"), Value("y")})},
+                 {"parameters", Value(Value::Object{})},
+                 {"lagrangian", kinetic + " - sum(j, 1.." + range + ", sqrt((x - j)^2 + y^2))"}});
+            const work::Account account(1e12);
+            symmetriesOf(system);
+            return account.spent();
+        };
+        const double few = spentOn("20"), many = spentOn("400");
+        QVERIFY2(many > few + 1e6,  // 3.9e6
+                 qPrintable(QString("%1, %2").arg(few).arg(many)));
+    }
+    /// Every reader of the same terms has the same ones, as making them differentiates each.
+    void termsAreMadeOnce() {
+        for (const char* id : {"averaged-rotations", "spring-pendulum", "fput-chain"}) {
+            const ReadScene scene = readScene(findPreset(id)->json);
+            QVERIFY(scene.resolved);
+            const auto& mechanics = scene.resolved->system->mechanics();
+            const auto first = termsOf(mechanics), again = termsOf(mechanics);
+            QVERIFY2(first.size() > 1 && first.size() == again.size(), id);
+            for (std::size_t k = 0; k < first.size(); ++k) QVERIFY2(first[k].model == again[k].model, id);
+        }
     }
 };
 
