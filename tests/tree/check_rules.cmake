@@ -3,6 +3,7 @@
 # nothing in a sound tree.
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/rules.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/mutants.cmake)
 
 # expect(NAME PATH TEXT PATTERN): a tree with this one file has exactly one violation, and it matches PATTERN;
 # an empty PATTERN: it has none.
@@ -177,3 +178,16 @@ expect_page(page_without "\n  quadrature/ " "\n" "the tree has engine/[a-z]+ whe
 expect_page(page_without_last "\napp/ " "\n" "the tree has its end where .* have app")
 expect_page(page_with_more "\n  shell/ " "\n  misc/          a\n  shell/ " "the tree has ui/misc where .* have ui/shell")
 expect_page(page_on_another_level "\n  + stage/ " "\n  stage/ " "the tree has ui/stage where .* have ui/.stage")
+
+# A fault of the list of mutation testing that can be tried, and two that cannot.
+set(root ${SCRATCH}/mutants)
+file(REMOVE_RECURSE ${root})
+file(WRITE ${root}/engine/core/a.cpp "int a = 1;\nint b = 1;\n")
+file(WRITE ${root}/tests/engine/core/a_test.cpp "")
+set(mutant "{\"file\": \"engine/core/a.cpp\", \"to\": \"2\", \"tests\": [\"engine.core.")
+file(WRITE ${root}/tests/mutation/mutants.json
+    "[${mutant}a\"], \"from\": \"a = 1\"}, ${mutant}a\"], \"from\": \"= 1\"}, ${mutant}b\"], \"from\": \"b = 1\"}]")
+extremal_mutant_violations(${root} violations)
+if(NOT violations MATCHES "^[^;]*once, number 1;[^;]*no test engine.core.b, number 2$")
+    message(SEND_ERROR "mutants: found: ${violations}")
+endif()

@@ -2,8 +2,9 @@
 # cmake -DROOT=<folder of the project> -P check_tree.cmake: fails naming every violation of the tree's rules.
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/rules.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/mutants.cmake)
 extremal_tree_violations(${ROOT} violations)
-foreach(kind licence room handbook)
+foreach(kind licence room handbook mutant)
     cmake_language(CALL extremal_${kind}_violations ${ROOT} found)
     list(APPEND violations ${found})
 endforeach()
