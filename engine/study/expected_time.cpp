@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/core/pool.hpp"
 #include "engine/core/thread_clock.hpp"
@@ -23,6 +24,21 @@ double secondsOfScene(const std::function<ReadScene()>& read, const std::stop_to
     const double reading = threadSeconds() - begin;
     if (!scene.resolved) return reading;
     return reading + (1 + observed) * trialSeconds(*scene.resolved, scene.resolved->schemes.front(), stop);
+}
+
+double secondsOfSolution(const ExactSolution& solution, std::size_t width, double start, double end,
+                         double every, const std::stop_token& stop) {
+    constexpr double budget = 2e-2;
+    if (!solution || !(every > 0)) return 0;
+    std::vector<double> x(width);
+    const double begin = threadSeconds();
+    double t = start, spent = 0;
+    for (long long k = 1; t < end && spent < budget && !stop.stop_requested(); ++k) {
+        t = std::min(end, start + static_cast<double>(k) * every);
+        solution(t, x);
+        spent = threadSeconds() - begin;
+    }
+    return t > start ? spent * (end - start) / (t - start) : 0;
 }
 
 void ExpectedTime::addRuns(std::size_t n, const std::function<double(std::size_t)>& seconds) {

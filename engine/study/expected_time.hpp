@@ -7,12 +7,18 @@
 #include <functional>
 #include <stop_token>
 
+#include "engine/model/exact_solution.hpp"
 #include "engine/scene/write/codec.hpp"
 
 namespace extremal {
 
 /// CPU seconds of a scene of one scheme: what reading it takes, and a run, where it is not refused.
 double secondsOfScene(const std::function<ReadScene()>& read, const std::stop_token& stop);
+
+/// CPU seconds that a solution takes at times `every` apart from `start` to `end`, as the first of them tell
+/// it: one that is stepped along may take more than the run that it is compared with. `width`: of its states.
+double secondsOfSolution(const ExactSolution& solution, std::size_t width, double start, double end,
+                         double every, const std::stop_token& stop);
 
 class ExpectedTime {
 public:

@@ -202,13 +202,14 @@ void Sweep::runPoints(const std::vector<std::size_t>& wanted,
         metricSize_ = metric.size();
         if (onReference) onReference(reference_);
     }
-    const auto referenceOf = [&](const StudyPoint& point) {
+    const auto referenceOf = [&](const StudyPoint& point) -> ExactSolution {
+        if (!metric.needsReference()) return {};
         if (point.reduction) return reference.at(point.row, scene_, schemeOf(scene_, point));
         const ResolvedScheme& run = scene_.schemes[point.scheme];
         if (point.step == 0 && scheme.make && !run.ownSystem) return scheme.make();
         return reference.at(point.row, scene_, run);
     };
-    progress_.announce(secondsAhead(wanted, stop));
+    progress_.announce(secondsAhead(wanted, referenceOf, reference.isShared(), stop));
     const auto compute = [&](std::size_t i) {
         const StudyPoint& point = rows_[i].point;
         return runPoint(scene_, point, metric, referenceOf(point), options_.repeat, stop);
@@ -219,8 +220,17 @@ void Sweep::runPoints(const std::vector<std::size_t>& wanted,
     });
 }
 
-/// Of the points of ladders, scheme by scheme.
-double Sweep::secondsAhead(const std::vector<std::size_t>& wanted, const std::stop_token& stop) const {
+/// Of the points of ladders, scheme by scheme, with the reference: once where it is shared, of the shortest
+/// step, which asks for the most of it, else beside every run.
+double Sweep::secondsAhead(const std::vector<std::size_t>& wanted, const PointReference& referenceOf,
+                           bool isShared, const std::stop_token& stop) const {
+    constexpr double usualSteps = 256;  // of a scheme that chooses them
+    const double start = scene_.initial.t, length = timeSpan(scene_.scene).length();
+    const auto secondsOfReference = [&](const StudyPoint& point) {
+        return secondsOfSolution(referenceOf(point), initialOf(scene_, schemeOf(scene_, point)).x.size(),
+                                 start, start + length, point.step > 0 ? point.step : length / usualSteps,
+                                 stop);
+    };
     const auto pointAt = [&](std::size_t k) -> const StudyPoint& { return rows_[wanted[k]].point; };
     const auto secondsOf = [&](std::size_t k) {
         const StudyPoint& point = pointAt(k);
@@ -230,7 +240,8 @@ double Sweep::secondsAhead(const std::vector<std::size_t>& wanted, const std::st
         at.reduction = point.reduction;
         try {
             const ResolvedScheme scheme = schemeAt(scene_, point.scheme, at);
-            return secondsOfPoint(trialSeconds(scene_, scheme, stop), options_.repeat);
+            return secondsOfPoint(trialSeconds(scene_, scheme, stop), options_.repeat) +
+                   (isShared ? 0 : secondsOfReference(point));
         } catch (const InvalidScene&) {
             return 0.0;  // there is no such mesh
         }
@@ -239,6 +250,11 @@ double Sweep::secondsAhead(const std::vector<std::size_t>& wanted, const std::st
     time.addSeries(
         wanted.size(), [&](std::size_t a, std::size_t b) { return pointAt(a).scheme == pointAt(b).scheme; },
         secondsOf);
+    const auto shortest = std::min_element(wanted.begin(), wanted.end(), [&](std::size_t a, std::size_t b) {
+        const double stepA = rows_[a].point.step, stepB = rows_[b].point.step;
+        return stepA > 0 && (stepB == 0 || stepA < stepB);
+    });
+    if (isShared && shortest != wanted.end()) time.add(secondsOfReference(rows_[*shortest].point));
     return time.onThreads(options_.threads);
 }
 

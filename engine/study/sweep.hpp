@@ -132,7 +132,9 @@ public:
     bool isPreparing() const { return progress_.isPreparing(); }
 
 private:
-    double secondsAhead(const std::vector<std::size_t>& wanted, const std::stop_token& stop) const;
+    using PointReference = std::function<ExactSolution(const StudyPoint&)>;
+    double secondsAhead(const std::vector<std::size_t>& wanted, const PointReference& referenceOf,
+                        bool isShared, const std::stop_token& stop) const;
     void addOwnPoint(std::size_t scheme);
     bool refinesMesh(const ResolvedScheme& scheme) const;
     void addLadder(std::size_t scheme);

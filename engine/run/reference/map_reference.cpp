@@ -25,7 +25,8 @@ MapReference::MapReference(const ResolvedScene& resolved, const std::vector<doub
         return;
     }
     reference_ = makeReference(resolved, stop);
-    if (reference_.make && reference_.info.type != "exact" && isSmall) share(resolved, steps);
+    constexpr double mostNodes = 2e6;  // of which many are the same
+    if (reference_.make && reference_.info.type != "exact" && nodes <= mostNodes) share(resolved, steps);
 }
 
 void MapReference::runScheme(const ResolvedScene& resolved, const std::vector<double>& steps,
@@ -65,7 +66,7 @@ void MapReference::share(const ResolvedScene& resolved, const std::vector<double
     for (const double step : steps)
         for (long long k = 0; k <= stepCount(scene.start.value, scene.end.value, step); ++k)
             times.push_back(Clock{initial.t, step}.at(k));
-    reference_.share(std::move(times), initial.x.size(), resolved.system);
+    isShared_ = reference_.share(std::move(times), initial.x.size(), resolved.system);
 }
 
 ExactSolution MapReference::at(std::size_t row, const ResolvedScene& resolved,

@@ -26,6 +26,8 @@ public:
     ExactSolution at(std::size_t row, const ResolvedScene& resolved, const ResolvedScheme& scheme) const;
     /// Of the reference that is asked itself; that of a scheme's tables has none.
     const ReferenceInfo& info() const { return reference_.info; }
+    /// Whether what one run has asked for is there for the others.
+    bool isShared() const { return isShared_; }
 
 private:
     struct Table {
@@ -39,6 +41,7 @@ private:
     ExactSolution atNodes(std::size_t row) const;
 
     Reference reference_;
+    bool isShared_ = false;
     std::vector<std::shared_ptr<const Table>> tables_;  ///< empty: the reference is asked itself
 };
 

@@ -391,21 +391,24 @@ ExactSolution MeshSolution::on(const std::shared_ptr<const System>& other) const
     return read;
 }
 
-void Reference::share(std::vector<double> times, std::size_t width, std::shared_ptr<const System> system) {
+bool Reference::share(std::vector<double> times, std::size_t width, std::shared_ptr<const System> system) {
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
-    const bool hasMesh = onMesh.system != nullptr;
-    if (hasMesh) width = onMesh.width;
-    if (!SharedSolution::isSmall(static_cast<double>(times.size()), width)) return;
-    const auto shared =
-        std::make_shared<SharedSolution>(hasMesh ? onMesh.make : make, std::move(times), width);
-    const auto reader = [shared] { return SharedSolution::reader(shared); };
-    if (!hasMesh) {
-        make = reader;
-        return;
+    const auto isSmall = [n = static_cast<double>(times.size())](std::size_t w) {
+        return SharedSolution::isSmall(n, w);
+    };
+    const auto readerOf = [&](std::function<ExactSolution()> from, std::size_t w) {
+        const auto shared = std::make_shared<SharedSolution>(std::move(from), std::move(times), w);
+        return [shared] { return SharedSolution::reader(shared); };
+    };
+    if (onMesh.system && isSmall(onMesh.width)) {
+        onMesh.make = readerOf(onMesh.make, onMesh.width);
+        make = [mesh = onMesh, system = std::move(system)] { return mesh.on(system); };
+        return true;
     }
-    onMesh.make = reader;
-    make = [mesh = onMesh, system = std::move(system)] { return mesh.on(system); };
+    if (!isSmall(width)) return false;
+    make = readerOf(make, width);
+    return true;
 }
 
 void shareReference(Reference& reference, const ResolvedScene& resolved) {

@@ -53,9 +53,10 @@ struct Reference {
     /// Of a computed one, with that of another kind at the same times (members.hpp); null: there is none.
     std::shared_ptr<const ReferencePair> pair = {};
 
-    /// Computes the solution once for all its users, at these times. Not where its states at all of them are
-    /// too many numbers. `width`: of the states of the scene.
-    void share(std::vector<double> times, std::size_t width, std::shared_ptr<const System> system);
+    /// Computes the solution once for all its users, at these times; where its states on a mesh of its own
+    /// are too many numbers, once for those on the mesh of the scene. False where these are too many as well.
+    /// `width`: of the states of the scene.
+    bool share(std::vector<double> times, std::size_t width, std::shared_ptr<const System> system);
 };
 
 /// The reference as a scheme on a mesh of its own sees it: the solution at its nodes, or none.

@@ -8,6 +8,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/march/march.hpp"
+#include "engine/run/reference/reference.hpp"
 #include "engine/run/reference/shared_solution.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
@@ -275,6 +276,28 @@ private slots:
         }
         QCOMPARE(made, 1 + 3);
         QVERIFY(asked <= static_cast<int>(times.size()) + 3);
+    }
+    /// A solution on a fine mesh that is too large to be kept there is kept where the runs look at it.
+    void largeSolutionsAreSharedAtTheNodesOfTheScene() {
+        for (const bool isTooLarge : {false, true}) {
+            int made = 0;
+            Reference reference;
+            reference.make = [&made] {
+                ++made;
+                return ExactSolution([](double t, std::span<double> x) { x[0] = t; });
+            };
+            reference.onMesh = {std::make_shared<System>(), 1000000, reference.make};
+            const std::size_t width = isTooLarge ? 1000000 : 1;
+            std::vector<double> times;
+            for (int k = 0; k <= 100; ++k) times.push_back(k);
+            QCOMPARE(reference.share(times, width, nullptr), !isTooLarge);
+            for (int run = 0; run < 2; ++run) {
+                double x = 0;
+                reference.make()(7, {&x, 1});
+                QCOMPARE(x, 7.0);
+            }
+            QCOMPARE(made, isTooLarge ? 2 : 1);
+        }
     }
 };
 
