@@ -34,12 +34,12 @@ void collectRoots(const Real& inverseSquares, std::vector<double>& roots) {
     }
 }
 
-/// Functions with q_1 = sign q_0, in place of the first and the last.
-Real closedForm(const Real& A, double sign) {
+/// Functions with q_1 = -q_0, in place of the first and the last.
+Real antiperiodic(const Real& A) {
     const Index m = A.rows() - 1;
     Real closed = A.topLeftCorner(m, m);
-    closed.row(0) += sign * A.row(m).head(m);
-    closed.col(0) += sign * A.col(m).head(m);
+    closed.row(0) -= A.row(m).head(m);
+    closed.col(0) -= A.col(m).head(m);
     closed(0, 0) += A(m, m);
     return closed;
 }
@@ -49,15 +49,15 @@ Real closedForm(const Real& A, double sign) {
 /// e. The stiffness of a constant is 0.
 std::vector<double> rootsOf(const OscillatorAction& action, const Eigen::VectorXd& constant) {
     std::vector<double> roots;
-    collectRoots(dense::solve<double>(closedForm(action.stiffness, -1), closedForm(action.mass, -1)), roots);
-    const Real K = closedForm(action.stiffness, 1), M = closedForm(action.mass, 1);
-    const Index inside = K.rows() - 1;
+    collectRoots(dense::solve<double>(antiperiodic(action.stiffness), antiperiodic(action.mass)), roots);
+    const Index inside = action.stiffness.rows() - 2;
     if (inside == 0) return roots;
     const Eigen::VectorXd ofConstant = action.mass * constant;
     const Eigen::VectorXd mean = ofConstant.segment(1, inside);
-    const Real centred =
-        M.bottomRightCorner(inside, inside) - mean * mean.transpose() / constant.dot(ofConstant);
-    collectRoots(dense::solve<double>(K.bottomRightCorner(inside, inside), centred), roots);
+    const Real K = action.stiffness.block(1, 1, inside, inside);
+    const Real M =
+        action.mass.block(1, 1, inside, inside) - mean * mean.transpose() / constant.dot(ofConstant);
+    collectRoots(dense::solve<double>(K, M), roots);
     return roots;
 }
 

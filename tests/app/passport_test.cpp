@@ -38,6 +38,14 @@ Said run(const QString& program, const QStringList& arguments) {
             QString::fromUtf8(process.readAll())};
 }
 
+/// Weights of p that are not those of q, which no scheme of the catalogue has.
+constexpr const char* ownTables =
+    R"~({"baseline": {"type": "runge-kutta", "a": [[0.25, 0], [0.5, 0.25]], "b": [0.25, 0.75], )~"
+    R"~("a_hat": [[0.25, 0.1], [0.5, 0.25]], "b_hat": [0.625, 0.375]}, "step": 0.05})~";
+constexpr const char* ownExplicitTables =
+    R"~({"baseline": {"type": "runge-kutta", "a": [[], [0.5]], "b": [0.25, 0.75], )~"
+    R"~("a_hat": [[0.25], [0.5]], "b_hat": [0.625, 0.375]}, "step": 0.05})~";
+
 }  // namespace
 
 class PassportTest : public QObject {
@@ -143,6 +151,8 @@ class PassportTest : public QObject {
         QTest::newRow("harmonic oscillator, RK4") << "harmonic-oscillator"
                                                   << R"~({"baseline": "rk4", "step": 0.05})~"
                                                   << "5";
+        QTest::newRow("pendulum, own explicit tables") << "pendulum" << ownExplicitTables << "3";
+        QTest::newRow("kepler, own implicit tables") << "kepler" << ownTables << "2";
         QTest::newRow("duffing, composition")
             << "duffing"
             << R"~({"scheme": "midpoint", "step": 0.05, "composition": {"type": "suzuki"}})~"
@@ -251,6 +261,8 @@ class PassportTest : public QObject {
         row("collocation", "spring-pendulum",
             R"~({"baseline": {"type": "gauss-collocation", "stages": 3}, "step": 0.001})~",
             "/model/k,/model/l,/model/g,/initial/q/1", "0.1");
+        row("own tables", "pendulum", ownTables, "/model/l,/model/g,/initial/q/0", "2");
+        row("own explicit tables", "pendulum", ownExplicitTables, "/model/l,/model/g,/initial/q/0", "2");
         row("RK4", "harmonic-oscillator", R"~({"baseline": "rk4", "step": 0.05})~",
             "/model/k,/model/m,/initial/q/0", "3");
         row("a composition", "duffing",
