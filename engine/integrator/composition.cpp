@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -15,12 +16,26 @@ namespace {
 
 constexpr int highestOrder = 24, mostLevels = 4;
 
-FieldInfo orderField() {
+FieldInfo orderField(const char* whatIsLeftOut) {
     FieldInfo f = integerField("order", "", 4, highestOrder, nullptr,
-                               "order of the composition, even; left out: two more than the scheme has");
+                               std::string("order of the composition, even; left out: ") + whatIsLeftOut);
     f.isOptional = true;
     f.whyLimits = "compositions of order 2 gain nothing, and above 24 round-off hides what is gained";
     return f;
+}
+
+constexpr const char* kahanLi = "kahan-li";
+constexpr int orderOfItsParts = 2;
+
+/// Of kahan-li: the first parts; the one in the middle follows from their sum.
+const std::vector<double>* firstParts(int order) {
+    static const std::vector<double> six = {0.39216144400731413927925056, 0.33259913678935943859974864,
+                                            -0.70624617255763935980996482, 0.08221359629355080023149045};
+    static const std::vector<double> eight = {0.13020248308889008087881763,  0.56116298177510838456196441,
+                                              -0.38947496264484728640807860, 0.15884190655515560089621075,
+                                              -0.39590389413323757733623154, 0.18453964097831570709183254,
+                                              0.25837438768632204729397911,  0.29501172360931029887096624};
+    return order == 6 ? &six : order == 8 ? &eight : nullptr;
 }
 
 class Composition final : public Integrator, public TransposedStep {
@@ -160,19 +175,28 @@ const std::vector<CatalogItem>& compositionCatalog() {
         {"yoshida",
          "Yoshida",
          "three steps of a symmetric scheme for two orders more, the middle one backwards",
-         {orderField()},
+         {orderField("two more than the scheme has")},
          {},
          "a symmetric scheme with a fixed step"},
         {"suzuki",
          "Suzuki",
          "five shorter steps of a symmetric scheme for two orders more, with a smaller error",
-         {orderField()},
+         {orderField("two more than the scheme has")},
          {},
-         "a symmetric scheme with a fixed step"}};
+         "a symmetric scheme with a fixed step"},
+        {kahanLi,
+         "Kahan-Li",
+         "nine or seventeen steps of a symmetric scheme of order 2 for order 6 or 8, with a much smaller "
+         "error",
+         {orderField("6")},
+         {},
+         "a symmetric scheme of order 2 with a fixed step"}};
     return catalog;
 }
 
-int defaultOrder(const Claims& scheme) { return scheme.order + 2; }
+int defaultOrder(const std::string& composition, const Claims& scheme) {
+    return composition == kahanLi ? 6 : scheme.order + 2;
+}
 
 std::string compositionRefusal(const Settings& composition, const Claims& scheme, std::string& hint) {
     const int order = composition.integer("order");
@@ -192,6 +216,14 @@ std::string compositionRefusal(const Settings& composition, const Claims& scheme
         hint = "the scheme as it is";
         return "gains nothing: the error of this scheme does not follow a power of the step";
     }
+    if (composition.type == kahanLi && scheme.order != orderOfItsParts) {
+        hint = "yoshida or suzuki";
+        return "is of schemes of order 2, and this one has order " + std::to_string(scheme.order);
+    }
+    if (composition.type == kahanLi && !firstParts(order)) {
+        hint = "6 or 8, or yoshida or suzuki";
+        return "must be 6 or 8 for kahan-li, got " + std::to_string(order);
+    }
     if (order % 2 != 0) {
         hint = "take " + std::to_string(order + 1);
         return "must be even, as the order of every symmetric scheme, got " + std::to_string(order);
@@ -210,7 +242,20 @@ std::string compositionRefusal(const Settings& composition, const Claims& scheme
     return {};
 }
 
+bool isComposableBy(const std::string& composition, const Claims& scheme) {
+    std::string hint;
+    const auto order = static_cast<double>(defaultOrder(composition, scheme));
+    return compositionRefusal({composition, {{"order", order}}, {}}, scheme, hint).empty();
+}
+
 std::vector<double> compositionParts(const Settings& composition, int from) {
+    if (composition.type == kahanLi) {
+        std::vector<double> parts = *firstParts(composition.integer("order"));
+        const std::vector<double> last(parts.rbegin(), parts.rend());
+        parts.push_back(1 - 2 * std::accumulate(parts.begin(), parts.end(), 0.0));
+        parts.insert(parts.end(), last.begin(), last.end());
+        return parts;
+    }
     const bool isYoshida = composition.type == "yoshida";
     const double twins = isYoshida ? 2 : 4;
     std::vector<double> parts{1};

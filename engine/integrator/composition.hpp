@@ -6,11 +6,14 @@
 /// even order.
 /// - yoshida: g = (a, 1 - 2a, a), a = 1 / (2 - 2^(1/(p+1))): 3 parts a level, the middle one goes back by
 /// more than h;
-/// - suzuki: g = (a, a, 1 - 4a, a, a), a = 1 / (4 - 4^(1/(p+1))): 5 parts a level, none longer than h.
+/// - suzuki: g = (a, a, 1 - 4a, a, a), a = 1 / (4 - 4^(1/(p+1))): 5 parts a level, none longer than h;
+/// - kahan-li: of a scheme of order 2 to order 6 at once in 9 parts, or to order 8 in 17, none longer than h.
+///   Their errors are some hundred times smaller than those of the other two with as many parts or more.
 /// All parts are steps of the scheme, so what each of them keeps is kept: symplecticity, momenta, quadratic
 /// invariants.
 ///
-/// Sources: Yoshida 1990; Suzuki 1990; Hairer, Lubich, Wanner 2006, II.4 and V.3.
+/// Sources: Yoshida 1990; Suzuki 1990; Kahan and Li 1997 (s9odr6a, s17odr8a); Hairer, Lubich, Wanner 2006,
+/// II.4 and V.3.
 #pragma once
 
 #include <memory>
@@ -23,11 +26,15 @@
 
 namespace extremal {
 
-/// "yoshida" and "suzuki", each with the key `order`.
+/// "yoshida", "suzuki" and "kahan-li", each with the key `order`.
 const std::vector<CatalogItem>& compositionCatalog();
 
-/// The order that is aimed at where none is given: two more than the scheme has.
-int defaultOrder(const Claims& scheme);
+/// The order that is aimed at where none is given: the least one that the composition has above that of the
+/// scheme.
+int defaultOrder(const std::string& composition, const Claims& scheme);
+
+/// Whether the scheme can be composed to the default order.
+bool isComposableBy(const std::string& composition, const Claims& scheme);
 
 /// Why the scheme cannot be composed to this order; empty if it can. `hint`: the remedy.
 std::string compositionRefusal(const Settings& composition, const Claims& scheme, std::string& hint);

@@ -122,10 +122,9 @@ private:
         for (const CatalogueScheme& c : simple)
             for (const CatalogItem& item : compositionCatalog()) {
                 SchemeSpec spec = c.scheme.spec;
-                std::string hint;
-                spec.composition = {item.id, {{"order", static_cast<double>(defaultOrder(c.claims()))}}, {}};
-                const bool isPossible =
-                    !c.scheme.isAdaptive() && compositionRefusal(spec.composition, c.claims(), hint).empty();
+                spec.composition = {
+                    item.id, {{"order", static_cast<double>(defaultOrder(item.id, c.claims()))}}, {}};
+                const bool isPossible = !c.scheme.isAdaptive() && isComposableBy(item.id, c.claims());
                 if (isPossible && c.claims().order <= 4)
                     add(item.id + " of " + c.name, Group::composition, c.degree, spec);
             }

@@ -30,7 +30,8 @@ Case composedCase(const Case& scheme, const Settings& composition) {
     return c;
 }
 
-/// Every symmetric scheme up to order 4, two and four orders up.
+/// Every symmetric scheme up to order 4, two and four orders up; those of order 2 also to orders 6 and 8 at
+/// once.
 std::vector<Case> everyComposition() {
     std::vector<Case> cases;
     for (const Case& c : everyScheme(2)) {
@@ -38,6 +39,8 @@ std::vector<Case> everyComposition() {
         for (const char* type : {"yoshida", "suzuki"})
             for (int order = c.claims.order + 2; order <= 6; order += 2)
                 cases.push_back(composedCase(c, to(type, order)));
+        for (const int order : {6, 8})
+            if (c.claims.order == 2) cases.push_back(composedCase(c, to("kahan-li", order)));
     }
     return cases;
 }
@@ -49,9 +52,12 @@ Case named(const std::string& name) {
 }
 
 /// Orders 6 of the splitting 1/6, 2/3, 1/6 have a leading error so small that on Kepler the next one
-/// outweighs it, with the other sign, down to 1e-9: their order shows below.
+/// outweighs it, with the other sign, down to 1e-9: their order shows below. So do orders 8, of which 1e-11
+/// is a large error.
 Orders orderOf(const Case& scheme, const System& system, const State& start) {
-    const double least = scheme.name.ends_with("of splitting") ? 1e-12 : 2e-11;
+    const double least = scheme.claims.order == 8                ? 2e-13
+                         : scheme.name.ends_with("of splitting") ? 1e-12
+                                                                 : 2e-11;
     return measure(
         system, start, 3, 1e-3,
         [&](double h) {
@@ -120,6 +126,17 @@ private slots:
                 QVERIFY(std::abs(sum - 1) < 1e-15 && std::abs(powers) < 1e-14);
                 for (std::size_t i = 0; i < g.size(); ++i) QVERIFY(g[i] == g[g.size() - 1 - i]);
             }
+        for (const int order : {6, 8}) {
+            const std::vector<double> g = compositionParts(to("kahan-li", order), 2);
+            QCOMPARE(g.size(), std::size_t(order == 6 ? 9 : 17));
+            // The conditions of one order after the other that are of single powers, and their palindrome.
+            for (int power = 1; power < order; power += 2) {
+                double sum = 0;
+                for (const double part : g) sum += std::pow(part, power);
+                QVERIFY2(std::abs(sum - (power == 1)) < 1e-15, qPrintable(QString::number(sum)));
+            }
+            for (std::size_t i = 0; i < g.size(); ++i) QVERIFY(g[i] == g[g.size() - 1 - i]);
+        }
         QCOMPARE(compositionParts(to("yoshida", 8), 2).size(), std::size_t(27));
         const std::vector<double> g = compositionParts(to("yoshida", 4), 2);
         QVERIFY(std::abs(g[0] - 1.3512071919596578) < 1e-15 && std::abs(g[1] + 1.7024143839193153) < 1e-15);
@@ -132,10 +149,15 @@ private slots:
             qInfo("claimed %d, measured q %.3f, p %.3f (%d points)", current().claims.order, o.q, o.p,
                   o.points);
             QVERIFY2(o.points >= 3, "no window");
-            // On Kepler 5.97 to 6.07 for order 6; on the pendulum, where four points from 1e-9 on are all
-            // there is, 5.78 to 6.1.
-            QVERIFY(std::abs(o.q - current().claims.order) < (isKepler ? 0.15 : 0.3));
-            QVERIFY(std::abs(o.p - current().claims.order) < (isKepler ? 0.15 : 0.3));
+            // On Kepler 5.97 to 6.07 for order 6, 7.98 to 8.08 for order 8; on the pendulum, where four
+            // points from 1e-9 on are all there is, 5.78 to 6.1. Of two of order 8 the next term of the error
+            // outweighs the leading one on Kepler down to round-off: 8.24 and 8.51.
+            const bool isLate = isKepler && current().claims.order == 8 &&
+                                (current().name.ends_with("of splitting") ||
+                                 current().name.ends_with("average-vector-field"));
+            const double below = isKepler ? 0.15 : 0.3, above = isLate ? 0.7 : below;
+            for (const double order : {o.q, o.p})
+                QVERIFY(order > current().claims.order - below && order < current().claims.order + above);
         }
     }
     void wavesAndBodiesAreComposedAsWell_data() {

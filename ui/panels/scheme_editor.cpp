@@ -271,12 +271,17 @@ void SchemeEditor::rebuild() {
     showRefusal();
 }
 
-/// Symmetric schemes with fixed steps can be composed.
+/// Symmetric schemes with fixed steps can be composed, some compositions are of schemes of order 2.
 void SchemeEditor::addComposition(std::vector<FormField>& fields) const {
     const SchemeSpec& s = spec();
-    if (s.tolerance || !resolve(s).claims.isSymmetric) return;
-    std::vector<std::string> choices = idsOf(compositionCatalog());
-    choices.insert(choices.begin(), "none");
+    if (s.tolerance) return;
+    SchemeSpec part = s;
+    part.composition = {};
+    const Claims claims = resolve(part).claims;
+    if (!claims.isSymmetric) return;
+    std::vector<std::string> choices{"none"};
+    for (const CatalogItem& item : compositionCatalog())
+        if (item.id == s.composition.type || isComposableBy(item.id, claims)) choices.push_back(item.id);
     const FieldInfo type = choiceField("composition", "composed", std::move(choices),
                                        "Steps of the scheme over parts of the step, for a higher order.");
     const std::string at = place() + "/composition";

@@ -212,7 +212,8 @@ void readComposition(Reader& reader, const Value& value, const std::string& poin
         return;
     const Claims claims = resolve(spec).claims;
     const bool isGiven = composition->find("order");
-    if (!isGiven) composition->keys.emplace_back("order", static_cast<double>(defaultOrder(claims)));
+    if (!isGiven)
+        composition->keys.emplace_back("order", static_cast<double>(defaultOrder(composition->type, claims)));
     std::string hint;
     const std::string refusal = compositionRefusal(*composition, claims, hint);
     if (!refusal.empty())

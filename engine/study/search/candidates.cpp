@@ -86,7 +86,8 @@ ResolvedScheme candidateOf(const Value& given, const std::string& label, const R
     return acceptedBy(scene, spec);
 }
 
-/// Compositions of what is symmetric and of order 2, to orders 4 and 6; those of the scene are there already.
+/// Compositions of what is symmetric and of order 2, to order 4, and to orders 6 and 8 those of the fewest
+/// parts; those of the scene are there already.
 void addCompositions(Candidates& all) {
     const std::size_t plain = all.scene.schemes.size();
     for (std::size_t i = 0; i < plain; ++i) {
@@ -97,7 +98,9 @@ void addCompositions(Candidates& all) {
             hasStepOfItsSpace(all.scene, part))
             continue;
         for (const CatalogItem& composition : compositionCatalog())
-            for (const int order : {4, 6}) {
+            for (const int order : {4, 6, 8}) {
+                const bool isOfFewest = composition.id == "kahan-li";
+                if (isOfFewest != (order > 4)) continue;
                 SchemeSpec spec = part.spec;
                 spec.composition = {composition.id, {{"order", static_cast<double>(order)}}, {}};
                 spec.isEnabled = false;
