@@ -21,8 +21,9 @@
 /// and momenta hold to round-off.
 ///
 /// Where no node sees itself, and the nodes that are seen see no others, the method is explicit, such as
-/// linear functions under the trapezoidal rule: each force is evaluated once, with the bits of the iteration.
-/// Where the step begins at exactly the place where the last node of the step before was, its force is known.
+/// linear functions under the trapezoidal rule: each force is evaluated once, and the nodes are the fixed
+/// point of a sweep to the last bit. Where the step begins at exactly the place where the last node of the
+/// step before was, its force is known.
 ///
 /// T: scalar. Arrays are d x stride, node fastest; beyond the nodes they repeat the last one.
 #pragma once
@@ -88,9 +89,7 @@ private:
     void startFromConstantForce(const T& t, const T* q);
     void findSources();
     bool beginsAtEnd(const T& t, const T* q) const;
-    bool solveExplicitly(const T& t, const T* q, Sweep<T>& s, StepReport& report);
-    void notePlaces(int first, int last);  ///< where the forces of nodes of [first, last) are evaluated
-    bool isAtNotedPlaces() const;
+    bool solveExplicitly(const T& t, const T* q, StepReport& report);
     T largestChange(const T* q) const;
     CorrectionSize<T> measured(const T* q, const T* p) const;
     /// The sums that move q and p go through extended precision: rounded in double they were biased, and the
@@ -124,7 +123,6 @@ private:
     /// Coefficients that are a unit or two of rounding, as N_ij - N_ji = s_i - s_j holds to the last bit, do
     /// not count.
     int sources_ = 0;
-    Array noted_;
     /// The last node of an explicit step.
     struct {
         Array place, force;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "engine/core/algebra/dense.hpp"
 #include "engine/integrator/node_iteration.hpp"
@@ -88,7 +89,7 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
     const auto unknowns = static_cast<std::size_t>(m_);
     for (Array* a : {&node_, &weight_, &toEnd_, &slope_, &times_}) a->assign(size, T(0));
     for (Array* a : {&N_, &start_}) a->assign(size * size, T(0));
-    for (Array* a : {&base_, &F_, &impulse_, &Z_, &Q_, &noted_}) a->assign(size * d, T(0));
+    for (Array* a : {&base_, &F_, &impulse_, &Z_, &Q_}) a->assign(size * d, T(0));
     for (Array* a : {&inverseMass_, &v0_, &lost_, &place_, &force_, &end_.place, &end_.force})
         a->assign(d, T(0));
     toForces_.assign(size * unknowns, T(0));
@@ -230,8 +231,9 @@ template <class T>
 Outcome NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP,
                                 int maxIterations, const std::stop_token& stop, StepReport& report) {
     using Verdict = typename FixedPointPolicy<T>::Verdict;
-    FixedPointPolicy<T> policy(tolerance_);
     place(t, p, carryQ, carryP);
+    if (sources_ > 0 && solveExplicitly(t, q, report)) return Outcome::converged;
+    FixedPointPolicy<T> policy(tolerance_);
     Sweep<T> s{d_,        n_,        stride_,         start_.data(),       base_.data(),
                F_.data(), nullptr,   impulse_.data(), inverseMass_.data(), q,
                Z_.data(), Q_.data(), size_.data()};
@@ -239,7 +241,6 @@ Outcome NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* car
         s.G = N_.data();
         s.weight = weight_.data();
     };
-    if (sources_ > 0 && solveExplicitly(t, q, s, report)) return Outcome::converged;
     const bool isOnward = hasForces_;
     if (!hasForces_) {
         startFromConstantForce(t, q);
@@ -285,54 +286,51 @@ bool NodeIteration<T>::beginsAtEnd(const T& t, const T* q) const {
     return true;
 }
 
+/// The fixed point without an iteration: the nodes that see no other, and then the others. So few forces are
+/// evaluated one by one. False where rounding moves a node after all, or a force is not finite: the iteration
+/// says what becomes of that.
 template <class T>
-void NodeIteration<T>::notePlaces(int first, int last) {
-    for (int k = 0; k < d_; ++k)
-        for (int i = first; i < last; ++i) noted_[at(k, i)] = Q_[at(k, i)];
-}
-
-template <class T>
-bool NodeIteration<T>::isAtNotedPlaces() const {
-    for (int k = 0; k < d_; ++k)
-        for (int i = 0; i < n_; ++i)
-            if (!(noted_[at(k, i)] == Q_[at(k, i)])) return false;
-    return true;
-}
-
-/// The fixed point without an iteration: the nodes that see no other, a sweep, and the others. False where
-/// rounding moves a node after all, or a force is not finite: the iteration says what becomes of that.
-template <class T>
-bool NodeIteration<T>::solveExplicitly(const T& t, const T* q, Sweep<T>& s, StepReport& report) {
-    const bool isOnward = hasForces_, isShared = beginsAtEnd(t, q);
-    const Sweep<T> expected = s;
-    if (!isOnward) std::fill(F_.begin(), F_.end(), T(0));
-    sweep_(s);  // where the others are expected, to tell how near that was
-    s.G = N_.data();
-    s.weight = weight_.data();
-    notePlaces(0, sources_);
-    if (isShared) {
-        for (int k = 0; k < d_; ++k) F_[at(k, 0)] = end_.force[static_cast<std::size_t>(k)];
-    } else {
-        mechanics_.forces ? evaluateForces() : evaluateOneByOne(0, sources_);
-        report.cost.evaluations += sources_;
+bool NodeIteration<T>::solveExplicitly(const T& t, const T* q, StepReport& report) {
+    using std::abs;
+    const bool isOnward = std::exchange(hasForces_, false), isShared = beginsAtEnd(t, q);
+    const auto moved = [&](const Array& by, const Array& forces, int nodes, int k, int i) {
+        T sum(0);
+        for (int j = 0; j < nodes; ++j) sum += by[at(j, i)] * forces[at(k, j)];
+        return base_[at(k, i)] + sum * inverseMass_[static_cast<std::size_t>(k)];
+    };
+    if (isOnward)  // where the nodes are expected, to tell how near that was
+        for (int k = 0; k < d_; ++k)
+            for (int i = 0; i < n_; ++i) Z_[at(k, i)] = moved(start_, F_, n_, k, i);
+    const auto solveNodes = [&](int first, int last, bool isKnown) {
+        for (int k = 0; k < d_; ++k)
+            for (int i = first; i < last; ++i) Q_[at(k, i)] = q[k] + moved(N_, impulse_, first, k, i);
+        if (isKnown) {
+            for (int k = 0; k < d_; ++k) F_[at(k, 0)] = end_.force[static_cast<std::size_t>(k)];
+        } else {
+            evaluateOneByOne(first, last);
+            report.cost.evaluations += last - first;
+        }
+        for (int k = 0; k < d_; ++k)
+            for (int i = first; i < last; ++i) impulse_[at(k, i)] = weight_[at(0, i)] * F_[at(k, i)];
+    };
+    solveNodes(0, sources_, isShared);
+    solveNodes(sources_, n_, false);
+    bool isThere = true;
+    for (int k = 0; k < d_; ++k) {
+        T change(0), scale(0);
+        for (int i = 0; i < n_; ++i) {
+            const T z = moved(N_, impulse_, n_, k, i);
+            isThere = isThere && q[k] + z == Q_[at(k, i)];
+            change = std::max(change, T(abs(z - Z_[at(k, i)])));
+            scale = std::max(scale, T(abs(z)));
+            Z_[at(k, i)] = z;
+        }
+        size_[static_cast<std::size_t>(k)] = {change, scale};
     }
-    // A force that is not seen may not be finite at a place where the node will not be.
-    for (int k = 0; k < d_; ++k)
-        for (int i = sources_; i < stride_; ++i) F_[at(k, i)] = T(0);
-    sweep_(s);
     nearness_ = isOnward ? largestChange(q) : T(1);
-    notePlaces(sources_, n_);
-    if (sources_ < n_) {
-        mechanics_.forces ? evaluateForces() : evaluateOneByOne(sources_, n_);
-        report.cost.evaluations += n_ - sources_;
-    }
-    sweep_(s);
-    report.residual = static_cast<double>(largestChange(q));
-    hasForces_ = end_.isKnown = isAtNotedPlaces();
-    if (!hasForces_) {
-        s = expected;
-        return false;
-    }
+    report.residual = 0;
+    hasForces_ = end_.isKnown = isThere;
+    if (!isThere) return false;
     end_.t = times_[at(0, n_ - 1)];
     for (int k = 0; k < d_; ++k) {
         end_.place[static_cast<std::size_t>(k)] = Q_[at(k, n_ - 1)];
@@ -351,7 +349,7 @@ void NodeIteration<T>::increments(T* dq, T* dp, T* carryQ, T* carryP) const {
         const auto c = static_cast<std::size_t>(k);
         Accumulator kicks[2] = {Accumulator(0), Accumulator(0)},
                     impulses[2] = {Accumulator(0), Accumulator(0)};  // two, as each waits for its last sum
-        for (int i = 0; i < stride_; i += 2)                         // beyond the nodes impulses are 0
+        for (int i = 0; i < n_; i += 2)                              // beyond the nodes impulses are 0
             for (int l = 0; l < 2; ++l) {
                 kicks[l] += Accumulator(toEnd_[at(0, i + l)]) * Accumulator(impulse_[at(k, i + l)]);
                 impulses[l] += Accumulator(impulse_[at(k, i + l)]);
