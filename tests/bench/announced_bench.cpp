@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Whether the studies of every preset end within twice the time that they announce, on one thread, and how
 /// much of that they need. Arguments: presets whose name contains the first; and the most seconds of a study,
-/// where a study that announces more is taken of the scene with an end that much nearer.
-#include <atomic>
+/// where a study that announces more is taken of the scene with an end that much nearer; and the first and
+/// the last preset to look at, in the order of their names.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -39,14 +39,14 @@ bool runUnlessLonger(AnyStudy& study, double& most) {
     return std::visit(
         [&most](auto& each) {
             std::stop_source stop;
-            std::atomic<bool> isOver = false;
-            const std::jthread watch([&] {
-                while (!isOver && each.announced().seconds <= most)
-                    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-                if (!isOver) stop.request_stop();
-            });
-            run(each, stop.get_token());
-            isOver = true;
+            {
+                const std::jthread watch([&](const std::stop_token& isOver) {
+                    while (!isOver.stop_requested() && each.announced().seconds <= most)
+                        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+                    if (!isOver.stop_requested()) stop.request_stop();
+                });
+                run(each, stop.get_token());
+            }
             if (!stop.stop_requested()) return true;
             most = each.announced().seconds;
             return false;
@@ -125,9 +125,11 @@ int main(int argc, char** argv) {
     using namespace extremal;
     const std::string wanted = argc > 1 ? argv[1] : "";
     const double most = argc > 2 ? std::atof(argv[2]) : INFINITY;
+    const std::string first = argc > 3 ? argv[3] : "", last = argc > 4 ? argv[4] : "~";
     Tally tally;
     for (const Preset& preset : presets())
-        if (preset.id.find(wanted) != std::string::npos) measureAll(preset, most, tally);
+        if (preset.id.find(wanted) != std::string::npos && preset.id >= first && preset.id <= last)
+            measureAll(preset, most, tally);
     std::printf("%d studies, %d of them took more than twice what they announced; the longest %.1f s\n",
                 tally.studies, tally.late, tally.longest);
     return tally.late == 0 ? 0 : 1;
