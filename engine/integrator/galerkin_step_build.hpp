@@ -78,7 +78,8 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     lu_ = Eigen::PartialPivLU<Square>(size);
     if (parts_.empty() && tables_.size() == 1 && tables_.front().frequency == T(0)) {
         const Table<T>& own = tables_.front();
-        if (mechanics_.isSeparable)
+        const bool isAsked = policy_.method == SolverMethod::fixedPoint;
+        if (mechanics_.isSeparable && (isAsked || areFewNodes(own.nodes(), own.unknowns())))
             fixedPointSolver_.template emplace<NodeIteration<T>>(mechanics_, own, h_, tolerance_);
         else if (VelocityIteration<T>::applies(mechanics_, own))
             fixedPointSolver_.template emplace<VelocityIteration<T>>(mechanics_, own, h_, tolerance_);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/algebra/dense.hpp"
+#include "engine/core/work.hpp"
 #include "engine/integrator/node_iteration.hpp"
 #include "engine/solve/fixed_point_policy.hpp"
 #include "engine/solve/newton_policy.hpp"
@@ -69,6 +70,7 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
       h_(h),
       tolerance_(tolerance),
       isExact_(tolerance <= std::numeric_limits<T>::epsilon()) {
+    work::spend(static_cast<double>(n_) * n_ * (3 * m_ + 64));
     const Square kinetic =
         table.testDerivative.transpose() * table.weight.asDiagonal() * table.derivative / h;
     const Square inverse = dense::inverse<T>(kinetic);

@@ -41,7 +41,11 @@ bool runUnlessLonger(AnyStudy& study, double& most) {
             std::stop_source stop;
             {
                 const std::jthread watch([&](const std::stop_token& isOver) {
-                    while (!isOver.stop_requested() && each.announced().seconds <= most)
+                    // What a search is cut off at does not depend on the scene.
+                    const auto isShort = [&] {
+                        return each.announced().isLimit || each.announced().seconds <= most;
+                    };
+                    while (!isOver.stop_requested() && isShort())
                         std::this_thread::sleep_for(std::chrono::milliseconds(2));
                     if (!isOver.stop_requested()) stop.request_stop();
                 });
