@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/integrator/composition.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/scheme_makers.hpp"
 #include "tests/bench/taylor.hpp"
@@ -64,6 +65,15 @@ void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& acc
                                      false, steps, longest,
                                      [&](double n) { return error(endOf(schemeOf(g), n)); }));
         }
+    for (const double order : {6, 8}) {
+        const Make verlet = schemeOf(*namedScheme("stormer-verlet-pair"));
+        const std::vector<double> parts = compositionParts({"kahan-li", {{"order", order}}, {}}, 2);
+        const Make whole = [&](const System& system, const State& start, double h) {
+            return composed(parts, *verlet(system, start, h));
+        };
+        curves.push_back(measure("Kahan-Li " + std::to_string(static_cast<int>(order)), false, steps, longest,
+                                 [&](double n) { return error(endOf(whole, n)); }));
+    }
     curves.push_back(measure("Gauss collocation 16", true, steps, longest, [&](double n) {
         return error(endOf(baselineOf("gauss-collocation", {{"stages", 8.0}}), n));
     }));
