@@ -227,9 +227,13 @@ double Sweep::secondsAhead(const std::vector<std::size_t>& wanted, const PointRe
     constexpr double usualSteps = 256;  // of a scheme that chooses them
     const double start = scene_.initial.t, length = timeSpan(scene_.scene).length();
     const auto secondsOfReference = [&](const StudyPoint& point) {
-        return secondsOfSolution(referenceOf(point), initialOf(scene_, schemeOf(scene_, point)).x.size(),
-                                 start, start + length, point.step > 0 ? point.step : length / usualSteps,
-                                 stop);
+        try {
+            const std::size_t width = initialOf(scene_, schemeOf(scene_, point)).x.size();
+            const double every = point.step > 0 ? point.step : length / usualSteps;
+            return secondsOfSolution(referenceOf(point), width, start, start + length, every, stop);
+        } catch (const InvalidScene&) {
+            return 0.0;  // there is no such mesh
+        }
     };
     const auto pointAt = [&](std::size_t k) -> const StudyPoint& { return rows_[wanted[k]].point; };
     const auto secondsOf = [&](std::size_t k) {
