@@ -25,7 +25,6 @@ FieldInfo orderField(const char* whatIsLeftOut) {
 }
 
 constexpr const char* kahanLi = "kahan-li";
-constexpr int orderOfItsParts = 2;
 
 /// Of kahan-li: the first parts; the one in the middle follows from their sum.
 const std::vector<double>* firstParts(int order) {
@@ -216,12 +215,12 @@ std::string compositionRefusal(const Settings& composition, const Claims& scheme
         hint = "the scheme as it is";
         return "gains nothing: the error of this scheme does not follow a power of the step";
     }
-    if (composition.type == kahanLi && scheme.order != orderOfItsParts) {
+    if (composition.type == kahanLi) {
         hint = "yoshida or suzuki";
-        return "is of schemes of order 2, and this one has order " + std::to_string(scheme.order);
-    }
-    if (composition.type == kahanLi && !firstParts(order)) {
-        hint = "6 or 8, or yoshida or suzuki";
+        if (scheme.order != 2)
+            return "needs a scheme of order 2, and this one has order " + std::to_string(scheme.order);
+        if (firstParts(order)) return {};
+        hint = "6 or 8, or " + hint;
         return "must be 6 or 8 for kahan-li, got " + std::to_string(order);
     }
     if (order % 2 != 0) {

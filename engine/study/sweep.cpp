@@ -228,9 +228,11 @@ double Sweep::secondsAhead(const std::vector<std::size_t>& wanted, const PointRe
     const double start = scene_.initial.t, length = timeSpan(scene_.scene).length();
     const auto secondsOfReference = [&](const StudyPoint& point) {
         try {
+            const ExactSolution solution = referenceOf(point);
+            if (!solution) return 0.0;
             const std::size_t width = initialOf(scene_, schemeOf(scene_, point)).x.size();
             const double every = point.step > 0 ? point.step : length / usualSteps;
-            return secondsOfSolution(referenceOf(point), width, start, start + length, every, stop);
+            return secondsOfSolution(solution, width, start, start + length, every, stop);
         } catch (const InvalidScene&) {
             return 0.0;  // there is no such mesh
         }

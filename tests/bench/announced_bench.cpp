@@ -65,12 +65,11 @@ bool measure(const Preset& preset, const ResolvedScene& whole, const StudyReques
         ResolvedScene scene = whole;
         double begin, part = 1;
         std::optional<AnyStudy> study;
-        for (bool isDone = false; !isDone;) {
+        for (;;) {
             study = makeStudy(knownStudy(request), request, &scene, 1);
             double announced = most;
             begin = threadSeconds();
-            isDone = runUnlessLonger(*study, announced);
-            if (isDone) break;
+            if (runUnlessLonger(*study, announced)) break;
             part *= 0.9 * most / announced;
             Scene shorter = whole.scene;
             shorter.end = {shorter.start.value + part * (shorter.end.value - shorter.start.value), {}};

@@ -271,7 +271,7 @@ void SchemeEditor::rebuild() {
     showRefusal();
 }
 
-/// Symmetric schemes with fixed steps can be composed, some compositions are of schemes of order 2.
+/// Symmetric schemes with fixed steps can be composed, in some ways only those of order 2.
 void SchemeEditor::addComposition(std::vector<FormField>& fields) const {
     const SchemeSpec& s = spec();
     if (s.tolerance) return;

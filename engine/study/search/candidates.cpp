@@ -86,9 +86,11 @@ ResolvedScheme candidateOf(const Value& given, const std::string& label, const R
     return acceptedBy(scene, spec);
 }
 
-/// Compositions of what is symmetric and of order 2, to order 4, and to orders 6 and 8 those of the fewest
-/// parts; those of the scene are there already.
+/// Compositions of what is symmetric and of order 2: of each order those that may be the cheapest. Those of
+/// the scene are there already.
 void addCompositions(Candidates& all) {
+    constexpr std::pair<const char*, int> worthTrying[] = {
+        {"yoshida", 4}, {"suzuki", 4}, {"kahan-li", 6}, {"kahan-li", 8}};
     const std::size_t plain = all.scene.schemes.size();
     for (std::size_t i = 0; i < plain; ++i) {
         const ResolvedScheme part = all.scene.schemes[i];
@@ -97,29 +99,26 @@ void addCompositions(Candidates& all) {
         if (part.isComposed() || !part.isFixed() || !part.claims.isSymmetric || part.claims.order != 2 ||
             hasStepOfItsSpace(all.scene, part))
             continue;
-        for (const CatalogItem& composition : compositionCatalog())
-            for (const int order : {4, 6, 8}) {
-                const bool isOfFewest = composition.id == "kahan-li";
-                if (isOfFewest != (order > 4)) continue;
-                SchemeSpec spec = part.spec;
-                spec.composition = {composition.id, {{"order", static_cast<double>(order)}}, {}};
-                spec.isEnabled = false;
-                const bool isThere = std::any_of(
-                    all.scene.scene.schemes.begin(), all.scene.scene.schemes.end(), [&](const SchemeSpec& s) {
-                        return s.composition == spec.composition && s.named == spec.named &&
-                               s.baseline == spec.baseline && s.space == spec.space;
-                    });
-                std::string hint;
-                if (isThere || !compositionRefusal(spec.composition, part.claims, hint).empty()) continue;
-                spec.label += ", " + composition.id + " " + std::to_string(order);
-                try {
-                    ResolvedScheme candidate = acceptedBy(all.scene, spec);
-                    all.scene.scene.schemes.push_back(candidate.spec);
-                    all.scene.schemes.push_back(std::move(candidate));
-                } catch (const InvalidScene& e) {
-                    all.refused.push_back({spec.label, e.problems().front().message});
-                }
+        for (const auto& [type, order] : worthTrying) {
+            SchemeSpec spec = part.spec;
+            spec.composition = {type, {{"order", static_cast<double>(order)}}, {}};
+            spec.isEnabled = false;
+            const bool isThere = std::any_of(
+                all.scene.scene.schemes.begin(), all.scene.scene.schemes.end(), [&](const SchemeSpec& s) {
+                    return s.composition == spec.composition && s.named == spec.named &&
+                           s.baseline == spec.baseline && s.space == spec.space;
+                });
+            std::string hint;
+            if (isThere || !compositionRefusal(spec.composition, part.claims, hint).empty()) continue;
+            spec.label += std::string(", ") + type + " " + std::to_string(order);
+            try {
+                ResolvedScheme candidate = acceptedBy(all.scene, spec);
+                all.scene.scene.schemes.push_back(candidate.spec);
+                all.scene.schemes.push_back(std::move(candidate));
+            } catch (const InvalidScene& e) {
+                all.refused.push_back({spec.label, e.problems().front().message});
             }
+        }
     }
 }
 
