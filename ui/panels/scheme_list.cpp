@@ -4,7 +4,6 @@
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QTimer>
 #include <QVBoxLayout>
 
@@ -14,6 +13,7 @@
 #include "engine/family/scheme.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/format.hpp"
+#include "ui/panels/column_area.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/workspace/fitting.hpp"
 #include "ui/workspace/own_schemes.hpp"
@@ -38,23 +38,22 @@ SchemeList::SchemeList(Workspace& workspace, RunControl& run, const Theme& theme
     header->addWidget(addButton_);
     layout->addLayout(header);
 
-    auto* scroll = scroll_ = new QScrollArea;
-    scroll->setWidgetResizable(true);
-    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    scroll->setFrameShape(QFrame::NoFrame);
+    scroll_ = new ColumnArea;
     auto* inside = new QWidget;
     inside->setProperty("ground", "window");
     cardsLayout_ = new QVBoxLayout(inside);
     cardsLayout_->setContentsMargins(0, 0, 4, 0);
     cardsLayout_->setSpacing(9);
     cardsLayout_->addStretch();
-    scroll->setWidget(inside);
-    layout->addWidget(scroll, 1);
+    scroll_->setWidget(inside);
+    layout->addWidget(scroll_, 1);
 
     connect(&workspace_, &Workspace::sceneChanged, this, &SchemeList::rebuild);
     connect(&workspace_, &Workspace::selectionChanged, this, &SchemeList::showSelection);
     connect(&run_, &RunControl::resultsChanged, this, &SchemeList::showResults);
 }
+
+void SchemeList::setWidths(int least, int most) { scroll_->setLimits(least, most); }
 
 void SchemeList::addFoot(QWidget* foot) { layout()->addWidget(foot); }
 

@@ -9,11 +9,11 @@
 
 class QMenu;
 class QPushButton;
-class QScrollArea;
 class QVBoxLayout;
 
 namespace extremal {
 
+class ColumnArea;
 class RunControl;
 class SchemeCard;
 struct Theme;
@@ -25,6 +25,8 @@ public:
     SchemeList(Workspace& workspace, RunControl& run, const Theme& theme, QWidget* parent = nullptr);
     void setTheme(const Theme& theme);
     SchemeCard* card(int index) const;
+    /// As wide as its cards ask for, an open editor among them, within these limits, in pixels.
+    void setWidths(int least, int most);
     /// Below the schemes, where it stays in sight while they scroll.
     void addFoot(QWidget* foot);
 
@@ -61,7 +63,7 @@ private:
     QPushButton* addButton_;
     QMenu* addMenu_;
     QVBoxLayout* cardsLayout_;
-    QScrollArea* scroll_;
+    ColumnArea* scroll_;
     std::vector<SchemeCard*> cards_;
 };
 

@@ -339,7 +339,7 @@ void MainWindow::shareWidth() {
               left = std::clamp(width() - scaled(208) - centre - frame, leastPanel, wanted);
     left_->setHorizontalScrollBarPolicy(left < wanted ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
     leftPanel_->setMinimumWidth(left);
-    schemes_->setMinimumWidth(scaled(208));
+    schemes_->setWidths(scaled(208), width() - left - centre - frame);
     const int usual = std::clamp(width() * 18 / 100, left, std::max(left, scaled(300)));
     const int wide = std::max(usual, width() * 55 / 100);  // room for words in the cells of the discretizer
     const int side = leftPanel_->isHidden() ? 0 : isDiscretizerWide_ ? wide : usual;

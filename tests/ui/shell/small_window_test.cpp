@@ -21,6 +21,7 @@
 #include "ui/base/card.hpp"
 #include "ui/base/combo_box.hpp"
 #include "ui/panels/scheme_card.hpp"
+#include "ui/panels/scheme_list.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/workspace/workspace.hpp"
 
@@ -123,6 +124,34 @@ private slots:
         QVERIFY(panel);
         QVERIFY2(panel->horizontalScrollBar()->maximum() == 0,
                  qPrintable(QString("%1 px too wide").arg(panel->horizontalScrollBar()->maximum())));
+    }
+    /// Cards of schemes are as wide as their panel, also where the scheme is edited.
+    void editorsFitTheirPanel_data() {
+        QTest::addColumn<QString>("preset");
+        for (const char* preset :
+             {"compositions", "kepler", "kepler-sem", "multiscale-modes", "coherent-state", "bar-notch",
+              "satellite", "elliptic", "born-infeld", "averaged-rotations", "free-knots", "sine-gordon-kink",
+              "henon-heiles", "vortices"})
+            QTest::addRow("%s", preset) << preset;
+    }
+    void editorsFitTheirPanel() {
+        QFETCH(QString, preset);
+        MainWindow window(Theme::light(), false);
+        window.resize(1280, 800);
+        window.show();
+        QVERIFY(window.open("preset:" + preset));
+        const auto* cards = window.findChild<SchemeList*>()->findChild<QScrollArea*>();
+        QVERIFY(cards);
+        const int schemes = static_cast<int>(window.workspace().scene().schemes.size());
+        for (int i = 0; i < schemes; ++i) {
+            SchemeCard* const card = window.findChild<SchemeList*>()->card(i);
+            card->setEditing(true);
+            for (int k = 0; k < 30; ++k) QCoreApplication::processEvents();
+            const int needed = cards->widget()->minimumSizeHint().width(), room = cards->viewport()->width();
+            QVERIFY2(needed <= room,
+                     qPrintable(QString("scheme %1: %2 px in %3").arg(i).arg(needed).arg(room)));
+            card->setEditing(false);
+        }
     }
     /// Names have as many lines as they need, and single long words go on in the next.
     void longNamesOfSchemesAreWhole() {
