@@ -12,9 +12,10 @@ void ComboBox::paintEvent(QPaintEvent*) {
     initStyleOption(&option);
     const QRect room =
         style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, this);
+    const QString whole = currentIndex() < 0 ? placeholderText() : currentText();
     option.currentText =
-        fontMetrics().elidedText(currentText(), Qt::ElideRight, room.width() - 2);  // what Fusion leaves free
-    const QString tip = option.currentText == currentText() ? QString() : currentText();
+        fontMetrics().elidedText(whole, Qt::ElideRight, room.width() - 2);  // what Fusion leaves free
+    const QString tip = option.currentText == whole ? QString() : whole;
     if (toolTip() == ownTip_ && tip != ownTip_) setToolTip(ownTip_ = tip);
     painter.drawComplexControl(QStyle::CC_ComboBox, option);
     painter.drawControl(QStyle::CE_ComboBoxLabel, option);

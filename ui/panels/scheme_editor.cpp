@@ -16,6 +16,7 @@
 #include "engine/model/parts/wall.hpp"
 #include "engine/phase/monitored.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/quadrature/tensor.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/write/codec.hpp"
@@ -119,20 +120,21 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
         if (spec().kind == SchemeSpec::Kind::discretization) {
             const Settings space = spaceOf(chosen(*first_), std::max(1, spec().space.integer("degree")));
             const bool isOtherFamily = familyOf(space) != familyOf(spec().space);
-            const std::string rule = fittingRule(isOtherFamily ? "auto" : spec().quadrature.type, space);
+            const std::string rule = fittingRule(isOtherFamily ? "auto" : shownRule().type, space);
             return change(newPair(scene, space, ruleFor(rule, space)));
         }
         change(spec().kind == SchemeSpec::Kind::baseline ? newBaseline(scene, chosen(*first_))
                                                          : newNamed(scene, chosen(*first_)));
     });
     rule_ = addChoice(tr("rule"), "rule");
+    rule_->setPlaceholderText(tr("auto"));
     ruleRow_ = rule_->parentWidget();
     connect(rule_, &QComboBox::activated, this, [this] {
         const Settings rule = ruleFor(chosen(*rule_), spec().space);
         Value tree(Value::Object{{"type", rule.type}});
         for (const auto& [key, value] : rule.keys)  // typed ones have no default
             if (value.isArray()) tree.set(key, value);
-        workspace_.edit({{place() + "/quadrature", tree}}, tr("Change quadrature"));
+        workspace_.edit({{placeOfRule(), tree}}, tr("Change quadrature"));
     });
     problem_ = makeLinkLabel("caption");
     problem_->setObjectName("problem.scheme");
@@ -174,12 +176,23 @@ const SchemeSpec& SchemeEditor::spec() const {
     return workspace_.scene().schemes[static_cast<std::size_t>(index_)];
 }
 
+/// The rule of the list: with a rule for each term that of the others.
+Settings SchemeEditor::shownRule() const {
+    const Settings& rule = spec().quadrature;
+    return isTermRule(rule) ? termPart(rule, otherTerms) : rule;
+}
+
+std::string SchemeEditor::placeOfRule() const {
+    const std::string at = place() + "/quadrature";
+    return isTermRule(spec().quadrature) ? at + "/" + otherTerms : at;
+}
+
 /// Changes when other fields are needed.
 std::string SchemeEditor::signature() const {
     const SchemeSpec& s = spec();
     return std::to_string(static_cast<int>(s.kind)) + s.space.type + "/" + s.quadrature.type + "/" +
-           s.baseline.type + "/" + s.named + "/" + s.composition.type + "/" + s.monitor.type + "/" +
-           std::to_string(s.keep.size());
+           shownRule().type + "/" + s.baseline.type + "/" + s.named + "/" + s.composition.type + "/" +
+           s.monitor.type + "/" + std::to_string(s.keep.size());
 }
 
 void SchemeEditor::setIndex(int index) {
@@ -199,7 +212,7 @@ void SchemeEditor::refresh() {
 void SchemeEditor::showRefusal() {
     if (index_ >= static_cast<int>(workspace_.scene().schemes.size())) return;
     std::string refused;
-    for (const std::string& at : {place(), place() + "/quadrature"})
+    for (const std::string& at : {place(), placeOfRule()})
         if (workspace_.drafts().contains(at)) refused = at;
     problem_->setVisible(!refused.empty());
     if (refused.empty()) return;
@@ -212,7 +225,7 @@ void SchemeEditor::showRefusal() {
 void SchemeEditor::showChoices() {
     const SchemeSpec& s = spec();
     kind_->setCurrentIndex(static_cast<int>(s.kind));
-    if (s.kind == SchemeSpec::Kind::discretization) choose(*rule_, s.quadrature.type);
+    if (s.kind == SchemeSpec::Kind::discretization) choose(*rule_, shownRule().type);
     choose(*first_, s.kind == SchemeSpec::Kind::discretization ? s.space.type
                     : s.kind == SchemeSpec::Kind::baseline     ? s.baseline.type
                                                                : s.named);
@@ -235,8 +248,8 @@ void SchemeEditor::rebuild() {
                 rule_->addItem(QString::fromStdString(item.title), QString::fromStdString(item.id));
         if (const CatalogItem* space = itemNamed(spaceCatalog(), s.space.type))
             addFields(fields, space->parameters, place() + "/space");
-        if (const CatalogItem* rule = itemNamed(quadratureCatalog(), s.quadrature.type))
-            addFields(fields, rule->parameters, place() + "/quadrature");
+        if (const CatalogItem* rule = itemNamed(quadratureCatalog(), shownRule().type))
+            addFields(fields, rule->parameters, placeOfRule());
     } else if (s.kind == SchemeSpec::Kind::baseline) {
         fill(*first_, baselineItems(workspace_.scene()));
         if (const BaselineEntry* entry = findBaseline(s.baseline.type))

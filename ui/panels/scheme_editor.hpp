@@ -46,6 +46,8 @@ private:
     void addMonitor(std::vector<FormField>& fields) const;
     std::string signature() const;
     const SchemeSpec& spec() const;
+    Settings shownRule() const;
+    std::string placeOfRule() const;
     std::string place() const { return "/schemes/" + std::to_string(index_); }
 
     Workspace& workspace_;
