@@ -12,6 +12,7 @@
 #include <QProcess>
 #include <QTemporaryDir>
 
+#include <csignal>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -164,6 +165,9 @@ private:
         return call;
     }
     static QString faultOf(const QProcess& process, const QString& said, bool isAsked) {
+        // The window ends by the signal that asks it to, after it has kept its edits.
+        if (isAsked && process.exitStatus() != QProcess::NormalExit && process.exitCode() == SIGTERM)
+            return {};
         if (process.exitStatus() != QProcess::NormalExit) return "is ended by a signal";
         const int code = process.exitCode();
         if ((code < 0 || code > 3) && !(isAsked && (code == 130 || code == 143)))
