@@ -360,7 +360,7 @@ inline void coordinateError(std::size_t d, const double* x, const double* refere
 }
 /// The system's own measure, else the usual one.
 ErrorMeasure errorMeasure(const System& system, const State& initial);
-/// xdot at (t, x); false where it is not known.
+/// xdot at (t, x), of as many entries as there are columns of the state; false where it is not known.
 bool rateOf(const System& system, double t, const double* x, double* dx);
 
 struct ModelEntry {

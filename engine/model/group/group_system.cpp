@@ -81,7 +81,7 @@ bool rate(const GroupMechanics& on, long long id, const double* x, double* dx) {
     const Eigen::Map<const Entries> g(at.g, n);
     group.rate(g, own.eta, own.g);
     Eigen::Map<Entries>(dx, n) = own.g;
-    std::fill(dx + n + d, dx + evenStateSize(on), 0.0);
+    std::fill(dx + n + d, dx + on.stateSize(), 0.0);  // what fills a state up to an even size has no rate
     double value = 0;
     if (!on.isInvariant) {
         on.gradient(on.model.get(), at.g, own.eta.data(), &value, own.m.data(), own.f.data());

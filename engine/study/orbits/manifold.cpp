@@ -44,7 +44,7 @@ Places placesOf(const ViewPlane& section, const System& system) {
 Vector ontoSection(const Vector& x, const Vector& f, Index at) { return x - f * (x(at) / f(at)); }
 
 Vector rateAt(const OrbitEquations& equations, const Vector& x) {
-    Vector f(x.size());
+    Vector f = Vector::Zero(x.size());
     if (!rateOf(equations.system(), equations.start(), x.data(), f.data()))
         refuseManifold("needs the equations of motion at the orbit, which have no solution there",
                        "another orbit");
