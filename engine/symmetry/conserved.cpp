@@ -37,13 +37,18 @@ std::string cyclicName(const System& system, const Symmetry& s) {
     return system.coordinates[static_cast<std::size_t>(at)].name;
 }
 
+std::string without(std::string text, char c) {
+    std::erase(text, c);
+    return text;
+}
+
 std::string symbolOf(const Symmetry& s) {
     const std::string about = s.name.substr(s.name.find('.') + 1);
     switch (s.kind) {
         case SymmetryKind::translation:
             return "p_" + about;
         case SymmetryKind::rotation:
-            return "L_" + about;
+            return "L_" + without(about, '-');  // about: the plane, as x-y
         case SymmetryKind::boost:
             return "G_" + about;
         default:

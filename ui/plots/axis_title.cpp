@@ -90,8 +90,13 @@ void drawTitle(QPainter& painter, const QFont& font, QPointF at, const QString& 
 void drawAxisTitle(QCPPainter& painter, const QCPAxis& axis, const QString& title) {
     const QFont font = axis.labelFont();
     const QFontMetricsF metrics(font);
-    double width = 0;
-    for (const Part& part : partsOf(title)) width += widthOf(part, font);
+    double width = 0, below = 0;  // what a lowered part takes below the other letters
+    for (const Part& part : partsOf(title)) {
+        width += widthOf(part, font);
+        if (part.kind == Part::Kind::lowered)
+            below = std::max(0.0, lowerBy * metrics.ascent() + QFontMetricsF(smallerFont(font)).descent() -
+                                      metrics.descent());
+    }
 
     // Where the axis puts its label: beyond the ticks and their texts.
     const QFontMetricsF ticks(axis.tickLabelFont());
@@ -104,7 +109,7 @@ void drawAxisTitle(QCPPainter& painter, const QCPAxis& axis, const QString& titl
     const QRectF rect(axis.axisRect()->rect());
     painter.save();
     if (isVertical) {
-        painter.translate(rect.left() - away, rect.center().y());
+        painter.translate(rect.left() - away - below, rect.center().y());
         painter.rotate(-90);
     } else {
         painter.translate(rect.center().x(), rect.bottom() + away);
