@@ -3,6 +3,7 @@
 
 #include <QFileInfo>
 #include <QMessageBox>
+#include <QPointer>
 #include <QRegularExpression>
 
 namespace extremal {
@@ -47,16 +48,22 @@ QString SaveDialog::path() const {
 }
 
 QString askForSave(QWidget* parent, const QString& title, const QString& proposal, const QString& filter) {
-    SaveDialog dialog(parent, title, proposal, filter);
-    while (dialog.exec() == QDialog::Accepted) {
-        const QString path = dialog.path();
+    // What asks may go away while the dialog is open, and takes it along.
+    const QPointer<SaveDialog> dialog(new SaveDialog(parent, title, proposal, filter));
+    QString chosen;
+    while (dialog->exec() == QDialog::Accepted && dialog) {
+        const QString path = dialog->path();
         // The dialog has asked about the name that was typed.
-        if (path == dialog.selectedFiles().value(0) || !QFileInfo::exists(path)) return path;
-        const auto answer = QMessageBox::question(
-            parent, title, SaveDialog::tr("%1 exists. Replace it?").arg(QFileInfo(path).fileName()));
-        if (answer == QMessageBox::Yes) return path;
+        const bool isAsked = path == dialog->selectedFiles().value(0) || !QFileInfo::exists(path);
+        if (isAsked ||
+            QMessageBox::question(dialog->parentWidget(), title,
+                                  SaveDialog::tr("%1 exists. Replace it?").arg(QFileInfo(path).fileName())) ==
+                QMessageBox::Yes)
+            chosen = path;
+        if (!dialog || !chosen.isEmpty()) break;
     }
-    return {};
+    delete dialog;
+    return chosen;
 }
 
 }  // namespace extremal

@@ -7,6 +7,7 @@
 #include <QFontDatabase>
 #include <QInputDialog>
 #include <QLabel>
+#include <QPointer>
 #include <QLineEdit>
 #include <QMenu>
 #include <QTimer>
@@ -233,6 +234,7 @@ void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const Vi
     if (keys.hasScheme) add(QObject::tr("Scheme"), &View::scheme, QObject::tr("the first"), labelsOf);
     if (keys.hasNode)
         menu.addAction(QObject::tr("Node..."), &menu, [&workspace, view, &menu] {
+            const QPointer<QMenu> guard(&menu);  // its plot may leave the page meanwhile
             const View before = view();
             const int last = lastNodeOf(workspace.scene());
             bool isChosen = false;
@@ -240,7 +242,7 @@ void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const Vi
                 menu.parentWidget(), QObject::tr("Node"),
                 QObject::tr("Node, 1 to %1 from left to right").arg(last),
                 before.node ? static_cast<int>(before.node->value) : (last + 1) / 2, 1, last, 1, &isChosen);
-            if (!isChosen) return;
+            if (!isChosen || !guard) return;
             View after = before;
             after.node = Number{static_cast<double>(node), {}};
             workspace.edit(editsForPlot(workspace.scene(), before, after),
@@ -248,7 +250,8 @@ void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const Vi
         });
 }
 
-void askForCurve(Workspace& workspace, const View& view, QWidget* parent) {
+void askForCurve(Workspace& workspace, const View& of, QWidget* parent) {
+    const View view = of;  // the plot may leave the page meanwhile
     QDialog dialog(parent);
     dialog.setWindowTitle(QObject::tr("Compare with a curve"));
     dialog.setMinimumWidth(440);

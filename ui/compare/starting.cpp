@@ -3,6 +3,7 @@
 
 #include <QInputDialog>
 #include <QMenu>
+#include <QPointer>
 
 #include <cmath>
 
@@ -118,13 +119,14 @@ void addStartActions(QMenu& menu, Workspace& workspace, const std::function<View
         if (!(after == before)) workspace.edit(editsForPlot(workspace.scene(), before, after), what);
     };
     QAction* spread = menu.addAction(QObject::tr("Spread starts..."), &menu, [&menu, view, change] {
+        const QPointer<QMenu> guard(&menu);  // its plot may leave the page meanwhile
         bool isChosen = false;
         const int now = view().starts.spread;
         const int count = QInputDialog::getInt(
             menu.parentWidget(), QObject::tr("Spread starts"),
             QObject::tr("Motions that start evenly spread over the plot, 0 to %1").arg(ViewStarts::most),
             now > 0 ? now : 200, 0, ViewStarts::most, 10, &isChosen);
-        if (isChosen)
+        if (isChosen && guard)
             change([count](ViewStarts& starts) { starts.spread = count; }, QObject::tr("Spread starts"));
     });
     QAction* undo = menu.addAction(QObject::tr("Remove the last start"), &menu, [change] {

@@ -101,7 +101,7 @@ void SchemeCard::makeHeader() {
     connect(line_, &QAbstractButton::clicked, this, &SchemeCard::toggleOrSolo);
     line_->setContextMenuPolicy(Qt::CustomContextMenu);
     connect(line_, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
-        QMenu menu(this);
+        QMenu menu;  // without a parent, which may go away while the menu is open
         fillColours(menu);
         menu.exec(line_->mapToGlobal(at));
     });

@@ -4,6 +4,7 @@
 #include <QClipboard>
 #include <QCoreApplication>
 #include <QEvent>
+#include <QPointer>
 #include <QSaveFile>
 #include <QVBoxLayout>
 
@@ -204,10 +205,11 @@ bool PlotWidget::save(const QString& path, double scale, QString* error) {
 }
 
 void PlotWidget::saveDialog() {
+    const QPointer<PlotWidget> guard(this);  // a plot may leave the page meanwhile
     const QString path = askForSave(this, tr("Save plot"), QString::fromStdString(figure().view) + ".png",
                                     tr("Picture (*.png);;PDF (*.pdf);;SVG (*.svg);;Data (*.csv)"));
     QString error;
-    if (!path.isEmpty() && !save(path, 2, &error)) emit saveFailed(tr("%1: %2").arg(path, error));
+    if (guard && !path.isEmpty() && !save(path, 2, &error)) emit saveFailed(tr("%1: %2").arg(path, error));
 }
 
 void PlotWidget::resizeEvent(QResizeEvent* event) {

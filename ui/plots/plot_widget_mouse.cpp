@@ -238,7 +238,7 @@ void PlotWidget::showValues(QPointF at, const std::string& nearest) {
 void PlotWidget::openMenu(const QContextMenuEvent& context) {
     Impl& s = *impl_;
     const double t = valueAtPixel(s.content->pixelMap(), PlotAxis::x, context.pos());
-    QMenu menu(this);
+    QMenu menu;  // without a parent, which may go away while the menu is open
     menu.addAction(tr("Fit"), this, &PlotWidget::fit);
     if (figure().x.whole) menu.addAction(tr("Show all data"), this, &PlotWidget::showAll);
     menu.addAction(tr("Previous view"), this, &PlotWidget::back);

@@ -2,11 +2,14 @@
 /// The interactive plots, driven by the mouse and the keyboard.
 #include <qcustomplot.h>
 
+#include <QContextMenuEvent>
 #include <QFile>
+#include <QPointer>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTimer>
 
 #include <cmath>
 #include <memory>
@@ -280,6 +283,21 @@ private slots:
         bool isASeries = false;
         for (const Series& any : figure.series()) isASeries = isASeries || any.style == clicked[0][0].toInt();
         QVERIFY(isASeries);
+    }
+    /// Results that come meanwhile may take the plot off its page.
+    void aPlotMayGoAwayWhileItsMenuOrItsDialogIsOpen() {
+        QPointer<PlotWidget> plot = shown("phase").release();
+        QTimer::singleShot(20, plot, [plot] { delete plot; });
+        plot->saveDialog();
+        QVERIFY(!plot);
+        plot = shown("phase").release();
+        QTimer::singleShot(20, plot, [plot] { delete plot; });
+        QTimer::singleShot(40, qApp, [] {
+            if (QWidget* const menu = QApplication::activePopupWidget()) menu->close();
+        });
+        QContextMenuEvent event(QContextMenuEvent::Mouse, middle(*plot), plot->mapToGlobal(middle(*plot)));
+        QApplication::sendEvent(&canvas(*plot), &event);
+        QVERIFY(!plot);
     }
 };
 
