@@ -22,7 +22,7 @@
 #include "ui/base/background.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/theme.hpp"
-#include "ui/panels/sideways_area.hpp"
+#include "ui/base/sideways_area.hpp"
 #include "ui/workspace/scheme_edits.hpp"
 #include "ui/workspace/scheme_finder.hpp"
 #include "ui/workspace/workspace.hpp"

@@ -13,7 +13,7 @@
 #include "engine/family/scheme.hpp"
 #include "ui/base/card.hpp"
 #include "ui/base/format.hpp"
-#include "ui/panels/column_area.hpp"
+#include "ui/base/column_area.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/workspace/fitting.hpp"
 #include "ui/workspace/own_schemes.hpp"

@@ -16,7 +16,7 @@
 #include "engine/core/problem.hpp"
 #include "ui/base/format.hpp"
 #include "ui/base/theme.hpp"
-#include "ui/panels/sideways_area.hpp"
+#include "ui/base/sideways_area.hpp"
 #include "ui/study/metric_box.hpp"
 #include "ui/study/study_edits.hpp"
 #include "ui/workspace/wanted.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/sideways_area.hpp"
+#include "ui/base/sideways_area.hpp"
 
 #include <QResizeEvent>
 #include <QScrollBar>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ui/panels/column_area.hpp"
+#include "ui/base/column_area.hpp"
 
 #include <QEvent>
 #include <QScrollBar>
