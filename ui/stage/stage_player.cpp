@@ -201,11 +201,12 @@ void StagePlayer::rowState(const Track& track, std::size_t row, std::vector<doub
     for (std::size_t c = 0; c < x.size(); ++c) x[c] = track.state[c][row];
 }
 
-Point StagePlayer::tracer(const std::vector<double>& x, bool isInset) const {
-    if (isInset) return system_.inset.tracer(x.data());
+Point StagePlayer::tracer(const Track& track, const std::vector<double>& x, bool isInset) const {
+    const System& system = systemOf(track);
+    if (isInset) return system.inset.tracer(x.data());
     Drawing drawing;
     drawing.isTracerOnly = true;
-    system_.draw(x.data(), drawing);
+    system.draw(x.data(), drawing);
     return drawing.tracer;
 }
 
@@ -219,7 +220,7 @@ StagePlayer::Extent StagePlayer::findBounds(const Track& track) const {
     for (std::size_t row = 0; row < track.t.size(); row += stride) {
         rowState(track, row, x);
         drawing.clear();
-        (track.system ? *track.system : system_).draw(x.data(), drawing);
+        systemOf(track).draw(x.data(), drawing);
         // What stands still counts once: many equal points would make all that moves seem far away.
         for (const Shape& shape : drawing.shapes)
             if (row == 0 || !isScenery(shape)) addExtent(shape, points);
@@ -249,7 +250,7 @@ double StagePlayer::findTrailSpan(const Trace& trace, double lengths) const {
     double length = 0;
     for (std::size_t row = 0; row < track.t.size(); row += stride) {
         rowState(track, row, x);
-        path.push_back(tracer(x, trace.isInset));
+        path.push_back(tracer(track, x, trace.isInset));
         if (path.size() > 1) length += distance(path[path.size() - 2], path.back());
     }
     const double time = track.t[(path.size() - 1) * stride] - track.t[0], whole = end() - start();
@@ -275,8 +276,8 @@ bool StagePlayer::stateBetween(const Track& track, std::size_t row, double t, st
     rowState(track, row, x0);
     rowState(track, row + 1, x1);
     if (!track.frameTimes.empty()) return false;
-    if (!rateOf(system_, track.t[row], x0.data(), v0.data()) ||
-        !rateOf(system_, track.t[row + 1], x1.data(), v1.data()))
+    if (!rateOf(systemOf(track), track.t[row], x0.data(), v0.data()) ||
+        !rateOf(systemOf(track), track.t[row + 1], x1.data(), v1.data()))
         return false;
     x.resize(n);
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -291,11 +292,11 @@ bool StagePlayer::isResolved(const Track& track, std::size_t row, const Trace& t
     std::vector<double> x;
     bend = 0;
     if (!stateBetween(track, row, (track.t[row] + track.t[row + 1]) / 2, x)) return false;
-    const Point middle = tracer(x, trace.isInset);
+    const Point middle = tracer(track, x, trace.isInset);
     rowState(track, row, x);
-    const Point a = tracer(x, trace.isInset);
+    const Point a = tracer(track, x, trace.isInset);
     rowState(track, row + 1, x);
-    const Point b = tracer(x, trace.isInset);
+    const Point b = tracer(track, x, trace.isInset);
     bend = distance(middle, {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
     return bend <= 0.2 * distance(a, b) + 0.005 * trace.size;
 }
@@ -320,7 +321,7 @@ std::vector<TrailPoint> StagePlayer::trail(const Track& track, const Trace& trac
     const std::size_t last = index(std::upper_bound(track.t.begin(), track.t.end(), now));  // one past
     const std::size_t stride = first < last ? (last - first + rows - 1) / rows : 1;
     const auto add = [&](const std::vector<double>& x, double time, bool isJoined) {
-        const Point p = tracer(x, trace.isInset);
+        const Point p = tracer(track, x, trace.isInset);
         if (isFinite(p)) points.push_back({p, (now - time) / trace.span, isJoined && !points.empty()});
     };
     std::vector<double> x;
@@ -360,7 +361,7 @@ std::vector<TrailPoint> StagePlayer::marks(const Track& track, const Trace& trac
         if (mark->t > now) continue;
         if (span > 0 && now - mark->t > span) break;
         stateAt(track, mark->t, x);
-        const Point p = tracer(x, false);
+        const Point p = tracer(track, x, false);
         if (isFinite(p)) points.push_back({p, span > 0 ? (now - mark->t) / span : 0, false});
     }
     return points;

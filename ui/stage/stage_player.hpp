@@ -69,7 +69,7 @@ private:
     /// The rows of one scheme that can be drawn: those before the first value that is not finite.
     struct Track {
         std::shared_ptr<const SchemeResult> result;
-        const System* system = nullptr;  ///< of the scheme, whose mesh may be its own
+        const System* system = nullptr;  ///< of the scheme, where its mesh is its own; else null
         std::span<const double> t;
         std::vector<std::span<const double>> state;  ///< one per state column
         std::vector<double> frameTimes;              ///< of fields, whose rows are frames: t is a view of it
@@ -96,7 +96,8 @@ private:
     void rowState(const Track& track, std::size_t row, std::vector<double>& x) const;
     bool stateBetween(const Track& track, std::size_t row, double t, std::vector<double>& x) const;
     bool isResolved(const Track& track, std::size_t row, const Trace& trace, double& bend) const;
-    Point tracer(const std::vector<double>& x, bool isInset) const;
+    const System& systemOf(const Track& track) const { return track.system ? *track.system : system_; }
+    Point tracer(const Track& track, const std::vector<double>& x, bool isInset) const;
     void addExact(double t, StageFrame& frame) const;
     void makeRoomForClocks();
     void addClocks(const Track& track, double t, StageLayer& layer) const;

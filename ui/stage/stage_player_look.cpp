@@ -140,7 +140,7 @@ StageFrame StagePlayer::frame(double t, const StageStyle& style, const StageLook
         if (layer.hasEnded) frame.notes.push_back(failureNote(track, layer.label));
         stateAt(track, t, x);
         drawing.clear();
-        (track.system ? *track.system : system_).draw(x.data(), drawing);
+        systemOf(track).draw(x.data(), drawing);
         const bool isFirst = frame.layers.empty();
         for (const Shape& shape : drawing.shapes) {
             if (!isScenery(shape))
@@ -154,7 +154,7 @@ StageFrame StagePlayer::frame(double t, const StageStyle& style, const StageLook
         if (const std::string note = eventNote(track, layer.label, t); !note.empty())
             frame.notes.push_back(note);
         if (frame.inset) {
-            layer.insetTracer = tracer(x, true);
+            layer.insetTracer = tracer(track, x, true);
             layer.insetTrail = trail(track, insetTrace_, t, trailRows);
         }
         frame.layers.push_back(std::move(layer));

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/run/run.hpp"
+#include "engine/scene/preset.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/stage/stage_player.hpp"
 
@@ -92,6 +96,25 @@ private slots:
         const StageFrame after = player.frame(6, {});
         QCOMPARE(after.notes.size(), std::size_t{1});
         QCOMPARE(after.notes[0], std::string("Verlet: diverged at t = 5.3 s"));
+    }
+
+    /// A row of a scheme with a mesh or modes of its own is no state of the scene's model.
+    void schemesWithSystemsOfTheirOwnAreDrawnByThem() {
+        ReadScene read = readScene(loadSceneText("preset:few-modes"));
+        QVERIFY(read.resolved);
+        read.scene.end = {0.1, ""};
+        Run run(read.scene, {});
+        run.start();
+        run.wait();
+        auto comparison = std::make_shared<Comparison>(run.latest());
+        std::erase_if(comparison->schemes, [](const auto& s) { return !s->scheme || !s->scheme->ownSystem; });
+        QVERIFY(!comparison->schemes.empty());
+        System scene = *read.resolved->system;
+        bool isUsed = false;
+        scene.draw = [&isUsed](const double*, Drawing&) { isUsed = true; };
+        const StagePlayer player(comparison, scene);
+        QVERIFY(!player.frame(0.1, {}).layers.empty());
+        QVERIFY(!isUsed);
     }
 
     void aModelWithoutPictureHasNoStage() {
