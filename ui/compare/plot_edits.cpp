@@ -7,9 +7,9 @@
 #include <QFontDatabase>
 #include <QInputDialog>
 #include <QLabel>
-#include <QPointer>
 #include <QLineEdit>
 #include <QMenu>
+#include <QPointer>
 #include <QTimer>
 #include <QVBoxLayout>
 
