@@ -34,7 +34,7 @@ Kept run(const mechanism_test::Mechanical& of, Integrator& integrator, int steps
     Mechanism mechanism(of.system.parts);
     const auto& L = of.system.mechanics();
     const auto energy = [&] { return L.energy(L.model.get(), s.t, s.x.data(), s.x.data() + L.dimension); };
-    const auto momentum = [&] { return s.x[0] * s.x[4] - s.x[1] * s.x[3]; };
+    const auto momentum = [&] { return L.dimension == 3 ? s.x[0] * s.x[4] - s.x[1] * s.x[3] : 0.0; };
     const double firstEnergy = energy(), firstMomentum = momentum();
     Eigen::VectorXd v(L.dimension);
     for (int i = 0; i < steps; ++i) {
@@ -44,7 +44,7 @@ Kept run(const mechanism_test::Mechanical& of, Integrator& integrator, int steps
         kept.value = std::max(kept.value, mechanism.largestValue(s.t, s.x.data()));
         kept.rate = std::max(kept.rate, mechanism.largestRate(s.t, s.x.data(), v.data()));
         kept.energy = std::max(kept.energy, std::abs(energy() - firstEnergy));
-        if (L.dimension == 3) kept.momentum = std::max(kept.momentum, std::abs(momentum() - firstMomentum));
+        kept.momentum = std::max(kept.momentum, std::abs(momentum() - firstMomentum));
     }
     return kept;
 }

@@ -16,8 +16,8 @@ namespace extremal::baselines {
 namespace {
 
 template <class Make>
-BaselineEntry coupledWave(const char* id, const char* title, const char* description, Claims claims,
-                          Make made) {
+BaselineEntry coupledWave(const std::string& id, const std::string& title, const char* description,
+                          Claims claims, Make made) {
     BaselineEntry e;
     e.item = {id, title, description, {}, std::move(claims), "a wave function"};
     e.takes = Takes::only<Wave, Interaction>();
@@ -49,7 +49,7 @@ BaselineEntry exactInTime(int s) {
     // What is observed is the energy per norm squared, which changes with the norm.
     const Claims claims{2 * s, true, false, {"norm² times energy"}};
     BaselineEntry e =
-        coupledWave(id.c_str(), ("energy by degree " + std::to_string(s) + " in time").c_str(),
+        coupledWave(id, "energy by degree " + std::to_string(s) + " in time",
                     "Continuous Petrov-Galerkin: the integral over time is exact; norm² times energy, order "
                     "2s, not symplectic.",
                     claims, [s](auto h, double g, double step) {
