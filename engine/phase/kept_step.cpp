@@ -313,7 +313,8 @@ private:
     using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
     Small gram_;
     SmallVector share_, length_ = SmallVector::Zero(8);
-    Eigen::LDLT<Small> gramLu_;
+    /// Computed from the start: a copy reads its state, which is not set before.
+    Eigen::LDLT<Small> gramLu_{Small::Identity(1, 1)};
     Vector x0_, x1_, lost_, work_, rate_, residual_;
     std::vector<Matrix> slopes_;
     Matrix system_;
