@@ -213,14 +213,31 @@ double bodySymplecticDefect(Step&& step, const State& start, double sign = 1, Ei
 }
 
 inline Discretization liePair(int degree, Settings quadrature = {"gauss", {}, {}}, bool isSymmetric = false,
-                              bool isReduced = true) {
+                              bool isReduced = true, double base = 0) {
     Discretization discretization;
-    discretization.space = {
-        "lie-polynomial",
-        {{"degree", static_cast<double>(degree)}, {"symmetric", isSymmetric}, {"reduced", isReduced}},
-        {}};
+    discretization.space = {"lie-polynomial",
+                            {{"degree", static_cast<double>(degree)},
+                             {"symmetric", isSymmetric},
+                             {"base", base},
+                             {"reduced", isReduced}},
+                            {}};
     discretization.quadrature = completeQuadrature(discretization.space, quadrature);
     return discretization;
+}
+/// How a step is made of a chart.
+struct LieForm {
+    const char* name;
+    bool isSymmetric;
+    double base;
+    bool isSelfAdjoint() const { return isSymmetric || base == 0.5; }
+};
+inline constexpr LieForm lieForms[] = {
+    {"", false, 0}, {", symmetric", true, 0}, {", centred", false, 0.5}, {", symmetric from .3", true, 0.3}};
+inline Discretization lieFormed(int degree, const LieForm& form, Settings quadrature = {"gauss", {}, {}}) {
+    return liePair(degree, std::move(quadrature), form.isSymmetric, true, form.base);
+}
+inline Discretization lieFormed(int degree, const LieForm& form, bool isReduced) {
+    return liePair(degree, {"gauss", {}, {}}, form.isSymmetric, isReduced, form.base);
 }
 
 struct BodyErrors {

@@ -55,22 +55,22 @@ private slots:
         QTest::addColumn<bool>("isTop");
         QTest::addColumn<int>("degree");
         QTest::addColumn<QString>("rule");
-        QTest::addColumn<bool>("isSymmetric");
+        QTest::addColumn<int>("form");
         for (const bool isTop : {false, true})
             for (int degree = 1; degree <= 4; ++degree)
                 for (const char* rule : {"gauss", "lobatto"})
-                    for (const bool isSymmetric : {false, true})
+                    for (int form = 0; form < std::ssize(lieForms); ++form)
                         QTest::addRow("%s, degree %d, %s%s", isTop ? "top" : "free", degree, rule,
-                                      isSymmetric ? ", symmetric" : "")
-                            << isTop << degree << QString(rule) << isSymmetric;
+                                      lieForms[form].name)
+                            << isTop << degree << QString(rule) << form;
     }
     void ordersOfAttitudeAndMomentum() {
         QFETCH(bool, isTop);
         QFETCH(int, degree);
         QFETCH(QString, rule);
-        QFETCH(bool, isSymmetric);
+        QFETCH(int, form);
         const KnownBody& body = isTop ? top() : standard();
-        const Discretization discretization = liePair(degree, {rule.toStdString(), {}, {}}, isSymmetric);
+        const Discretization discretization = lieFormed(degree, lieForms[form], {rule.toStdString(), {}, {}});
         QCOMPARE(describe(discretization.space, discretization.quadrature).claims.order, 2 * degree);
         // Largest errors at five times against a far finer run; steps between round-off and where the first
         // term reigns.
@@ -88,8 +88,8 @@ private slots:
             return states;
         };
         const auto reference = at(liePair(8), isTop ? 200 : 80);
-        const int first =
-            (isTop ? (degree == 4 ? 50 : 80) : (degree == 4 ? 10 : 20)) / (isSymmetric && degree > 1 ? 2 : 1);
+        const int first = (isTop ? (degree == 4 ? 50 : 80) : (degree == 4 ? 10 : 20)) /
+                          (lieForms[form].isSymmetric && degree > 1 ? 2 : 1);
         std::vector<double> h, attitude, momentum;
         for (const double factor : {1.0, 1.5, 2.0}) {
             const int n = samples * static_cast<int>(std::lround(first * factor / samples));
@@ -182,11 +182,10 @@ private slots:
     /// to the last bit, and it evaluates more.
     void reducedAndUnreducedStepsAgree() {
         for (int degree = 1; degree <= 4; ++degree)
-            for (const bool isSymmetric : {false, true}) {
+            for (const LieForm& form : lieForms) {
                 const System s = standard().system();
                 const auto make = [&](bool isReduced) {
-                    return makeIntegrator(s, liePair(degree, {"gauss", {}, {}}, isSymmetric, isReduced),
-                                          {0, 0.25});
+                    return makeIntegrator(s, lieFormed(degree, form, isReduced), {0, 0.25});
                 };
                 const auto reduced = make(true), full = make(false);
                 State a = bodyState(standard().start, {0.5, 0.5, -0.5, 0.5}), b = a;
@@ -208,9 +207,9 @@ private slots:
     void symmetrisedStepsReturnOthersDoNot() {
         for (const bool isTop : {false, true})
             for (int degree = 1; degree <= 4; ++degree)
-                for (const bool isSymmetric : {false, true}) {
+                for (const LieForm& form : lieForms) {
                     const KnownBody& body = isTop ? top() : standard();
-                    const Discretization discretization = liePair(degree, {"gauss", {}, {}}, isSymmetric);
+                    const Discretization discretization = lieFormed(degree, form);
                     const State start = bodyState(body.start);
                     const double h = isTop ? 0.4 : 0.8;
                     const auto there =
@@ -220,9 +219,8 @@ private slots:
                     const double defect = largestDifference(back->x, start.x);
                     const bool claims =
                         describe(discretization.space, discretization.quadrature).claims.isSymmetric;
-                    qInfo("%s, degree %d%s: %.1e", body.name.c_str(), degree,
-                          isSymmetric ? ", symmetric" : "", defect);
-                    QCOMPARE(claims, isSymmetric || degree == 1);
+                    qInfo("%s, degree %d%s: %.1e", body.name.c_str(), degree, form.name, defect);
+                    QCOMPARE(claims, form.isSelfAdjoint() || degree == 1);
                     if (claims) QVERIFY(defect < 1e-14);
                     if (!claims && degree < 4)
                         QVERIFY(defect > 1e-11);  // free, degree 2: 1.1e-6, degree 3: 8.8e-10
@@ -230,10 +228,9 @@ private slots:
     }
 
     void theCurveMeetsTheNodesAndIsAccurateBetween() {
-        for (const bool isSymmetric : {false, true}) {
+        for (const LieForm& form : lieForms) {
             const KnownBody& body = top();
-            const auto integrator =
-                makeIntegrator(body.system(), liePair(4, {"gauss", {}, {}}, isSymmetric), {0, 0.2});
+            const auto integrator = makeIntegrator(body.system(), lieFormed(4, form), {0, 0.2});
             const auto fine = makeIntegrator(body.system(), liePair(4), {0, 0.01});
             State s = bodyState(body.start), f = s;
             std::vector<double> x(10);

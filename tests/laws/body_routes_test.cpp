@@ -196,13 +196,13 @@ private slots:
         // Any turn for the free body, turns about the vertical for the top.
         for (const bool isTop : {false, true})
             for (int degree = 1; degree <= 4; ++degree)
-                for (const bool isSymmetric : {false, true}) {
+                for (const LieForm& form : lieForms) {
                     const KnownBody& body = isTop ? top() : standard();
                     const so3::Quaternion<double> turn = so3::quaternionExp(
                         isTop ? so3::Vector<double>(0, 0, 1.1) : so3::Vector<double>(0.7, -1.2, 0.4));
                     const auto run = [&](const so3::Quaternion<double>& q) {
-                        const auto integrator = makeIntegrator(
-                            body.system(), liePair(degree, {"gauss", {}, {}}, isSymmetric), {0, 0.2});
+                        const auto integrator =
+                            makeIntegrator(body.system(), lieFormed(degree, form), {0, 0.2});
                         return after(*integrator, bodyState(body.start, {q(0), q(1), q(2), q(3)}), 50)->x;
                     };
                     const auto plain = run({1, 0, 0, 0}), turned = run(turn);

@@ -147,9 +147,12 @@ Slopes slopesOf(const System& system, const State& start, const List& reference,
 
 void checkOrders(const System& system, const State& start, const List& reference, std::size_t entries,
                  double duration, int coarsest) {
-    for (int s = 1; s <= 3; ++s) {
-        const Slopes made = slopesOf(system, start, reference, entries, liePair(s), duration, coarsest);
-        qInfo("s = %d:%s, slopes %.2f, %.2f", s, made.row.c_str(), made.places, made.momenta);
+    for (int k = 2; k <= 7; ++k) {
+        const int s = k / 2;
+        const LieForm& form = lieForms[k % 2 == 0 ? 0 : 2];
+        const Slopes made =
+            slopesOf(system, start, reference, entries, lieFormed(s, form), duration, coarsest);
+        qInfo("s = %d%s:%s, slopes %.2f, %.2f", s, form.name, made.row.c_str(), made.places, made.momenta);
         QVERIFY(std::abs(made.places - 2 * s) < 0.2);
         QVERIFY(made.momenta > 2 * s - 0.2);
     }

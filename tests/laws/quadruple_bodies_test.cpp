@@ -21,7 +21,7 @@ Pose<Quad> run(bool isTop, int degree, bool isGauss, int n) {
     const BodyMechanics<Quad> body = isTop ? quadrupleTop() : quadrupleBody();
     const Table<Quad> table = makeTable(polynomialSpace<Quad>(degree, PolynomialBasis::lobatto),
                                         isGauss ? gauss<Quad>(degree) : lobatto<Quad>(degree + 1));
-    LieStep<Quad, Group> step(body, table, Quad(2) / n, true, false, {});
+    LieStep<Quad, Group> step(body, table, Quad(2) / n, true, Quad(0), {});
     Pose<Quad> pose;
     pose.momentum << Quad(1) / 10, Quad(1) / 5, isTop ? Quad(1) / 2 : Quad(1);
     for (int k = 0; k < n; ++k) {

@@ -118,22 +118,21 @@ private slots:
     void bodies_data() {
         QTest::addColumn<bool>("isTop");
         QTest::addColumn<int>("degree");
-        QTest::addColumn<bool>("isAdjoint");
+        QTest::addColumn<double>("base");
         for (const bool isTop : {false, true})
             for (const int degree : {1, 2, 3})
-                for (const bool isAdjoint : {false, true})
-                    QTest::addRow("%s, degree %d%s", isTop ? "top" : "free", degree,
-                                  isAdjoint ? ", adjoint" : "")
-                        << isTop << degree << isAdjoint;
+                for (const double base : {0.0, 1.0, 0.5, 0.25})
+                    QTest::addRow("%s, degree %d, chart at %g", isTop ? "top" : "free", degree, base)
+                        << isTop << degree << base;
     }
     void bodies() {
         QFETCH(bool, isTop);
         QFETCH(int, degree);
-        QFETCH(bool, isAdjoint);
+        QFETCH(double, base);
         using Group = RotationGroup<Quad>;
         const BodyMechanics<Quad> body = isTop ? quadrupleTop() : quadrupleBody();
         const auto make = [&] {
-            return LieStep<Quad, Group>(body, tableOf(degree, true), Quad(1) / 5, true, isAdjoint, {});
+            return LieStep<Quad, Group>(body, tableOf(degree, true), Quad(1) / 5, true, Quad(base), {});
         };
         Pose<Quad> start;
         start.momentum << Quad(1) / 2, Quad(1) / 5, Quad(4) / 5;

@@ -85,10 +85,10 @@ GroupCase beside(GroupCase each, const char* other) {
 }
 
 /// g after `steps` steps.
-std::vector<double> endOf(const GroupCase& each, int degree, bool isSymmetric, int steps) {
+std::vector<double> endOf(const GroupCase& each, int degree, const LieForm& form, int steps) {
     const System system = each.system();
-    const auto end = after(*makeIntegrator(system, liePair(degree, {"gauss", {}, {}}, isSymmetric), {0, 0.1}),
-                           each.start(system), steps);
+    const auto end =
+        after(*makeIntegrator(system, lieFormed(degree, form), {0, 0.1}), each.start(system), steps);
     return end ? end->x : std::vector<double>();
 }
 
@@ -190,16 +190,15 @@ private slots:
             for (const GroupCase& each : {free(group), top(group)}) {
                 if (group == Value("su2") && std::string(each.lagrangian) != free(group).lagrangian) continue;
                 for (const int degree : {1, 2, 3})
-                    for (const bool isSymmetric : {false, true}) {
-                        const auto alone = endOf(each, degree, isSymmetric, 40),
-                                   closed = endOf(beside(each, "u1"), degree, isSymmetric, 40),
-                                   swept = endOf(beside(each, "sl2"), degree, isSymmetric, 40);
+                    for (const LieForm& form : lieForms) {
+                        const auto alone = endOf(each, degree, form, 40),
+                                   closed = endOf(beside(each, "u1"), degree, form, 40),
+                                   swept = endOf(beside(each, "sl2"), degree, form, 40);
                         const std::size_t entries = group == Value("su2") ? 16 : 9;
                         QVERIFY(alone.size() > entries && closed.size() > entries && swept.size() > entries);
                         const double far = distance(alone, closed, 0, entries),
                                      further = distance(alone, swept, 0, entries);
-                        qInfo("degree %d%s: closed forms %.1e, sweeps %.1e", degree,
-                              isSymmetric ? ", symmetric" : "", far, further);
+                        qInfo("degree %d%s: closed forms %.1e, sweeps %.1e", degree, form.name, far, further);
                         QVERIFY(far < 1e-12);
                         QVERIFY(further < 1e-12);
                     }
@@ -237,8 +236,8 @@ private slots:
                                      {}},
                             0)};
             for (const int s : {1, 2, 3})
-                for (const bool isSymmetric : {false, true}) {
-                    const Discretization scheme = liePair(s, {"gauss", {}, {}}, isSymmetric);
+                for (const LieForm& form : lieForms) {
+                    const Discretization scheme = lieFormed(s, form);
                     const auto a = after(*makeIntegrator(one, scheme, {0, 0.1}), body, 40),
                                b = after(*makeIntegrator(other, scheme, {0, 0.1}), start, 40);
                     QVERIFY(a && b);
@@ -251,7 +250,7 @@ private slots:
                         apart = std::max(apart, std::abs(b->x[static_cast<std::size_t>(4 * i + 3)] -
                                                          a->x[static_cast<std::size_t>(10 + i)]));
                     }
-                    qInfo("SE(3), degree %d%s: %.1e", s, isSymmetric ? ", symmetric" : "", apart);
+                    qInfo("SE(3), degree %d%s: %.1e", s, form.name, apart);
                     QVERIFY(apart < 1e-12);
                 }
         }
@@ -371,12 +370,10 @@ private slots:
                                    chainOfBodies(3, true)};
         for (const GroupCase& each : cases)
             for (const int degree : {1, 2})
-                for (const bool isSymmetric : {false, true}) {
-                    const TangentDefects defects =
-                        tangentDefects(each, liePair(degree, {"gauss", {}, {}}, isSymmetric), 0.1);
+                for (const LieForm& form : lieForms) {
+                    const TangentDefects defects = tangentDefects(each, lieFormed(degree, form), 0.1);
                     qInfo("%s, degree %d%s: differences %.1e, form %.1e, transposed %.1e", each.lagrangian,
-                          degree, isSymmetric ? ", symmetric" : "", defects.difference, defects.form,
-                          defects.transposed);
+                          degree, form.name, defects.difference, defects.form, defects.transposed);
                     QVERIFY(defects.difference < 1e-9);
                     QVERIFY(defects.form < 1e-12);
                     QVERIFY(defects.transposed < 1e-13);

@@ -131,9 +131,6 @@ public:
     void carry(const GroupPose& base, const Element& g, const Vector& W, GroupPose& end) const {
         end.J = base.J - inSpace(g, W);
     }
-    void fetch(GroupPose& base, const Element& g, const Vector& W, const GroupPose& end) const {
-        base.J = end.J + inSpace(g, W);
-    }
 
 private:
     /// Takes pi . x away from x: what round-off and the last correction of Newton's method leave of it comes

@@ -255,22 +255,37 @@ public:
         return eta;
     }
 
-    StepGuess(const DataGroup& group, const GroupMechanics& mechanics, int points)
-        : group_(group),
-          mechanics_(mechanics),
-          xi_(static_cast<std::size_t>(points + 1), Vector::Zero(group.dimension())) {
+    StepGuess(const DataGroup& group, const GroupMechanics& mechanics)
+        : group_(group), mechanics_(mechanics) {
         const int d = group.dimension();
-        for (Vector* const each : {&eta_, &m_, &f_}) *each = Vector::Zero(d);
+        for (Vector* const each : {&eta_, &m_, &f_, &base_}) *each = Vector::Zero(d);
         for (Move* const each : {&at_, &along_, &slope_, &sum_}) each->xi = each->mu = Vector::Zero(d);
-        guessed_ = Eigen::MatrixXd::Zero(d, points);
     }
 
-    /// Coordinates, seen from the base, of the curve at the times from the known end on.
+    /// As of a body (lie_guess.hpp).
     template <class Columns>
-    void curve(const GroupPose& known, const Vector& mu, const std::vector<double>& times, double step,
-               bool isAdjoint, Columns& points) {
-        curveInGroup(known, mu, times, step, isAdjoint && !group_.isOnSpheres(), points);
-        if (group_.isOnSpheres()) putOnSpheres(isAdjoint, static_cast<Eigen::Index>(times.size()), points);
+    void curve(const GroupPose& known, const Vector& mu, const std::vector<double>& times, double base,
+               double step, Columns& points) {
+        start_ = known.g;
+        isFound_ = true;
+        at_.xi.setZero();
+        at_.mu = mu;
+        double reached = 0;
+        const auto to = [&](double time) -> const Vector& {
+            if (time != reached) advance((time - reached) * step);
+            reached = time;
+            return at_.xi;
+        };
+        bool isBaseKnown = false;
+        for (std::size_t k = 0; k < times.size(); ++k) {
+            if (!isBaseKnown && times[k] > base) {
+                base_ = to(base);
+                isBaseKnown = true;
+            }
+            points.col(static_cast<Eigen::Index>(k)) = to(times[k]);
+        }
+        if (!isBaseKnown) base_ = to(base);
+        seenFromBase(base != 0, points);
     }
     /// False where there is no motion at the start: in a singularity.
     bool isRateFinite() const { return isFound_; }
@@ -279,60 +294,36 @@ private:
     struct Move {
         Vector xi, mu;
     };
+    /// From the chart at the start to that at the base point; on spheres, whose frames turn about the points
+    /// there, to coordinates without such a turn.
     template <class Columns>
-    void curveInGroup(const GroupPose& known, const Vector& mu, const std::vector<double>& times, double step,
-                      bool isAdjoint, Columns& points) {
-        const auto count = static_cast<int>(times.size());
-        start_ = known.g;
-        isFound_ = true;
-        at_.xi.setZero();
-        at_.mu = mu;
-        xi_[0] = at_.xi;
-        for (int k = 0; k < count; ++k) {
-            const auto i = static_cast<std::size_t>(k);
-            advance((times[i] - (k > 0 ? times[i - 1] : 0)) * step);
-            xi_[i + 1] = at_.xi;
-        }
-        const MatrixGroup& g = group_.group();
-        if (isAdjoint) {
-            along_.xi = -xi_.back();
-            g.exponential(along_.xi, back_);
-        }
-        for (int k = 0; k < count; ++k) {
-            const auto i = static_cast<std::size_t>(k + 1);
-            if (!isAdjoint) {
-                points.col(k) = xi_[i];
-                continue;
-            }
-            const Vector& other = xi_[static_cast<std::size_t>(count) - i];
-            g.moved(back_, other, g_);
-            along_.xi = other - xi_.back();
-            g.logarithm(g_, along_.xi, along_.mu);
-            points.col(k) = along_.mu;
-        }
-    }
-    /// The guess of the group, seen on the spheres: the frame at its end has turned about the point.
-    template <class Columns>
-    void putOnSpheres(bool isAdjoint, Eigen::Index count, Columns& points) {
+    void seenFromBase(bool hasBase, Columns& points) {
         const MatrixGroup& group = group_.group();
-        const auto turned = [&](Eigen::Index k, auto&& to) {
-            group.exponential(guessed_.col(k), g_);
-            group_.horizontal(g_, to);
-        };
-        guessed_ = points;
-        if (!isAdjoint) {
-            for (Eigen::Index k = 0; k < count; ++k) turned(k, points.col(k));
-            return;
+        const bool isOnSpheres = group_.isOnSpheres();
+        if (!hasBase && !isOnSpheres) return;
+        if (hasBase) {
+            along_.xi = base_;
+            if (isOnSpheres) {
+                group.exponential(base_, g_);
+                group_.horizontal(g_, along_.xi);
+            }
+            along_.xi = -along_.xi;
+            group.exponential(along_.xi, back_);
         }
-        // The base is where the curve ends, and its frame is that of the known end carried there.
-        turned(count - 1, along_.xi);
-        along_.xi = -along_.xi;
-        group.exponential(along_.xi, back_);
-        for (Eigen::Index k = 0; k + 1 < count; ++k) {
-            group.moved(back_, guessed_.col(count - 2 - k), g_);
-            group_.horizontal(g_, points.col(k));
+        for (Eigen::Index k = 0; k < points.cols(); ++k) {
+            along_.xi = points.col(k);
+            if (hasBase)
+                group.moved(back_, along_.xi, g_);
+            else
+                group.exponential(along_.xi, g_);
+            if (isOnSpheres) {
+                group_.horizontal(g_, points.col(k));
+            } else {
+                along_.xi -= base_;
+                group.logarithm(g_, along_.xi, along_.mu);
+                points.col(k) = along_.mu;
+            }
         }
-        points.col(count - 1) = along_.xi;
     }
     /// slope_ at a place.
     void findRate(const Move& at) {
@@ -373,10 +364,9 @@ private:
     DataGroup group_;
     GroupMechanics mechanics_;
     MatrixGroup::Entries start_, g_, back_;
-    std::vector<Vector> xi_;
+    Vector base_;         ///< xi of the base point, seen from the start
     Vector eta_, m_, f_;  ///< f_: 0 where L is invariant
     Move at_, along_, slope_, sum_;
-    Eigen::MatrixXd guessed_;
     bool isFound_ = true;
 };
 

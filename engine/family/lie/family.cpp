@@ -22,22 +22,24 @@
 namespace extremal::family {
 namespace {
 
-Settings lieSpace(int degree, bool isSymmetric) {
-    return {"lie-polynomial",
-            {{"degree", static_cast<double>(degree)}, {"symmetric", isSymmetric}, {"reduced", true}},
-            {}};
-}
-
 SpaceEntry liePolynomial() {
     SpaceEntry e;
+    FieldInfo base = numberField("base", "base point", "", 0,
+                                 "Where on the step the curve meets the base point of the chart, in steps "
+                                 "from its start on: in the middle the scheme is symmetric.");
+    base.symbol = "ν";
+    base.min = 0;
+    base.max = 1;
+    base.whyLimits = "0 is the start of the step, 0.5 its middle, 1 its end";
     e.item = {
         "lie-polynomial",
         "Lie polynomial",
-        "Polynomials in the algebra of a Lie group, carried to the group by exp in the chart at the start "
-        "of each step.",
+        "Polynomials in the algebra of a Lie group, carried to the group by exp in the chart at a point of "
+        "each step.",
         {integerField("degree", "s", 1, 8, nullptr, "Degree of the polynomials in the algebra on one step."),
          flagField("symmetric", false,
                    "Half a step of the adjoint scheme first: self-adjoint at every degree."),
+         base,
          flagField("reduced", true,
                    "Free bodies: leave the attitude out of the equations (discrete Euler-Poincaré).")},
         {},
@@ -98,9 +100,10 @@ Properties describeLie(const Discretization& discretization) {
         p.claims.isSymmetric = true;
         p.claims.order += p.claims.order % 2;
     } else {
-        // The chart at the start of the step is seen from one side; but a curve of degree 1 has the same
-        // charts at both ends.
-        p.claims.isSymmetric = p.claims.isSymmetric && space.integer("degree") == 1;
+        // A chart that is not in the middle of the step is seen from one side; but a curve of degree 1 has
+        // the same charts everywhere.
+        p.claims.isSymmetric =
+            p.claims.isSymmetric && (space.integer("degree") == 1 || space.number("base") == middleOfStep);
     }
     p.shortName = p.refusal.empty() ? "Lie" + std::to_string(p.claims.order) : "-";
     return p;
@@ -151,7 +154,10 @@ ReferencePlan trusted(const System& system, const State&, double) {
 ChoiceGrid choices(const System& system) {
     std::vector<SpaceRow> rows;
     for (const int degree : {1, 2, 3, 4, 6, 8})
-        rows.push_back({"Lie " + std::to_string(degree), "", lieSpace(degree, false)});
+        rows.push_back({"Lie " + std::to_string(degree), "", lieSpace(degree)});
+    for (const int degree : {2, 3, 4})
+        rows.push_back(
+            {"Lie " + std::to_string(degree) + ", centred", "c", lieSpace(degree, false, middleOfStep)});
     if (quaternionProblem(system).empty())
         for (const int degree : {2, 3, 4, 6, 8})
             rows.push_back({"quaternion " + std::to_string(degree),
@@ -172,17 +178,27 @@ WrittenAction written(const Discretization& d) {
               "\\tfrac12 \\mu \\cdot I^{-1} \\mu"}},
             {{"q_i′ = q_i (0, I⁻¹ μ_i) / 2 at the nodes",
               "q_i' = \\tfrac12\\, q_i\\, (0, I^{-1} \\mu_i) \\quad \\text{at the nodes}"}}};
+    const bool isAtStart = d.space.number("base") == 0;
     return {
-        "The curve is g(τ) = g_0 exp(ξ(τ)), ξ a polynomial in the Lie algebra with ξ(0) = 0; its "
-        "coefficients are the unknowns.",
+        isAtStart ? "The curve is g(τ) = g_0 exp(ξ(τ)), ξ a polynomial in the Lie algebra with ξ(0) = 0; its "
+                    "coefficients are the unknowns."
+                  : "The curve is g(τ) = g_ν exp(ξ(τ)), ξ a polynomial in the Lie algebra with ξ(ν) = 0; its "
+                    "coefficients are the unknowns, and g_ν = g_0 exp(ξ(0))⁻¹.",
         {{"S = h Σ_i b_i L(g(c_i), Ω(c_i)),  Ω = dexp_{−ξ}(ξ′) / h",
           "S = h \\sum_i b_i\\, L\\bigl(g(c_i), \\Omega(c_i)\\bigr), \\qquad \\Omega = \\tfrac1h "
           "\\operatorname{dexp}_{-\\xi}(\\xi')"}},
-        {{"Σ_i b_i (h φ_a(c_i) ∂L/∂ξ + φ_a′(c_i) ∂L/∂ξ′) = 0 of interior φ_a, and the momentum at both ends "
-          "for the last",
-          "\\sum_i b_i \\Bigl( h\\, \\varphi_a(c_i) \\frac{\\partial L}{\\partial \\xi} + \\varphi_a'(c_i) "
-          "\\frac{\\partial L}{\\partial \\xi'} \\Bigr) = 0 \\quad (a < m), \\qquad p_1 = \\frac{\\partial "
-          "S}{\\partial g_1}"}}};
+        {{isAtStart ? "Σ_i b_i (h φ_a(c_i) ∂L/∂ξ + φ_a′(c_i) ∂L/∂ξ′) = 0 of interior φ_a, and the momentum "
+                      "at both ends for the last"
+                    : "Σ_i b_i (h φ_a(c_i) ∂L/∂ξ + φ_a′(c_i) ∂L/∂ξ′) = [φ_a p] at the ends, for φ_a that are "
+                      "0 at ν",
+          isAtStart
+              ? "\\sum_i b_i \\Bigl( h\\, \\varphi_a(c_i) \\frac{\\partial L}{\\partial \\xi} + "
+                "\\varphi_a'(c_i) \\frac{\\partial L}{\\partial \\xi'} \\Bigr) = 0 \\quad (a < m), \\qquad "
+                "p_1 = "
+                "\\frac{\\partial S}{\\partial g_1}"
+              : "\\sum_i b_i \\Bigl( h\\, \\varphi_a(c_i) \\frac{\\partial L}{\\partial \\xi} + "
+                "\\varphi_a'(c_i) \\frac{\\partial L}{\\partial \\xi'} \\Bigr) = \\bigl[ \\varphi_a\\, p "
+                "\\bigr]_0^1, \\qquad \\varphi_a(\\nu) = 0"}}};
 }
 
 /// What a discretization cannot do on a system is refused where its steps are made, whoever asks for them.

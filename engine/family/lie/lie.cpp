@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/family/lie/lie.hpp"
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -46,18 +47,33 @@ public:
     explicit StatePoses(BodyForm form) : BodyPoses(std::move(form)) {}
 };
 
+/// Of the adjoint: the same space, with the nodes 1 - c_i.
+Table<double> mirroredTable(const Settings& space, const Settings& quadrature) {
+    const Table<double> own = lieTable(space, quadrature);
+    if (own.rule.isSymmetric) return own;
+    Rule<double> rule = own.rule;
+    for (std::vector<double>* const each : {&rule.c, &rule.ends}) {
+        std::reverse(each->begin(), each->end());
+        for (double& c : *each) c = 1 - c;
+    }
+    std::reverse(rule.b.begin(), rule.b.end());
+    return makeTable(own.space, rule);
+}
+
 template <class G>
 class Lie final : public Integrator {
 public:
-    Lie(const typename G::Mechanics& mechanics, StatePoses<G> poses, const Table<double>& table, double step,
-        bool isReduced, bool isSymmetrised, const SolverPolicy& policy)
+    Lie(const typename G::Mechanics& mechanics, StatePoses<G> poses, const Discretization& d, double step,
+        const SolverPolicy& policy)
         : poses_(std::move(poses)),
           mechanics_(mechanics),
-          table_(table),
+          table_(lieTable(d.space, d.quadrature)),
+          mirrored_(mirroredTable(d.space, d.quadrature)),
           policy_(policy),
           h_(step),
-          isReduced_(isReduced),
-          isSymmetrised_(isSymmetrised),
+          base_(d.space.number("base")),
+          isReduced_(d.space.flag("reduced")),
+          isSymmetrised_(d.space.flag("symmetric")),
           adjoint_(adjoint()),
           step_(own()) {}
 
@@ -127,22 +143,33 @@ private:
     bool applyInGroup(double* W, int columns) {
         return (!isSymmetrised_ || adjoint_.applyTangent(W, columns)) && step_.applyTangent(W, columns);
     }
-    LieStep<double, G> adjoint() const { return {mechanics_, table_, h_ / 2, isReduced_, true, policy_}; }
+    LieStep<double, G> adjoint() const {
+        return {mechanics_, mirrored_, h_ / 2, isReduced_, 1 - base_, policy_};
+    }
     LieStep<double, G> own() const {
-        return {mechanics_, table_, isSymmetrised_ ? h_ / 2 : h_, isReduced_, false, policy_};
+        return {mechanics_, table_, isSymmetrised_ ? h_ / 2 : h_, isReduced_, base_, policy_};
     }
 
     StatePoses<G> poses_;
     typename G::Mechanics mechanics_;
-    Table<double> table_;
+    Table<double> table_, mirrored_;
     SolverPolicy policy_;
-    double h_;
+    double h_, base_;
     bool isReduced_, isSymmetrised_;
     LieStep<double, G> adjoint_, step_;
     typename G::Pose pose_;  ///< at the end of the last step
 };
 
 }  // namespace
+
+Settings lieSpace(int degree, bool isSymmetric, double base) {
+    return {"lie-polynomial",
+            {{"degree", static_cast<double>(degree)},
+             {"symmetric", isSymmetric},
+             {"base", base},
+             {"reduced", true}},
+            {}};
+}
 
 Table<double> lieTable(const Settings& space, const Settings& quadrature) {
     static MemoCache<std::pair<Settings, Settings>, Table<double>> known(64);
@@ -157,12 +184,8 @@ std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discre
     if (discretization.space.type == "quaternion-polynomial")
         return makeQuaternionIntegrator(system, discretization, step);
     const SolverPolicy policy = solverPolicy(discretization.solver, system);
-    const Table<double> table = lieTable(discretization.space, discretization.quadrature);
-    const bool isReduced = discretization.space.flag("reduced"),
-               isSymmetrised = discretization.space.flag("symmetric");
     const auto made = [&]<class G>(std::type_identity<G>, const auto& mechanics, StatePoses<G> poses) {
-        return std::make_unique<Lie<G>>(mechanics, std::move(poses), table, step, isReduced, isSymmetrised,
-                                        policy);
+        return std::make_unique<Lie<G>>(mechanics, std::move(poses), discretization, step, policy);
     };
     using Rotations = RotationGroup<double>;
     if (const LieGroup* const group = system.parts.find<LieGroup>()) {

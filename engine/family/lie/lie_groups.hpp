@@ -96,12 +96,9 @@ struct RotationGroup : BodyGroup<T, 3> {
         r.attitude = so3::normalised(so3::product(p.attitude, so3::quaternionExp(xi)));
         return r;
     }
-    /// Gives the end point, placed already, its momentum; or the base point.
+    /// Gives the end point, placed already, its momentum.
     static void carry(const Pose& base, const Element& g, const Vector& W, Pose& end) {
         end.momentum = base.momentum - g * W;
-    }
-    static void fetch(Pose& base, const Element& g, const Vector& W, const Pose& end) {
-        base.momentum = end.momentum + g * W;
     }
 };
 
@@ -197,11 +194,6 @@ struct MotionGroup : BodyGroup<T, 6> {
         end.linear = base.linear - g.rotation * W.template tail<3>();
         end.momentum = base.momentum - g.rotation * W.template head<3>() -
                        so3::cross(Three(end.position - base.position), end.linear);
-    }
-    static void fetch(Pose& base, const Element& g, const Vector& W, const Pose& end) {
-        base.linear = end.linear + g.rotation * W.template tail<3>();
-        base.momentum = end.momentum + g.rotation * W.template head<3>() +
-                        so3::cross(Three(end.position - base.position), end.linear);
     }
 
 private:

@@ -88,31 +88,40 @@ class StepGuess {
 public:
     using Vector = typename G::Vector;
 
-    StepGuess(const G& group, const BodyMechanics<T>& body, int points)
-        : group_(group), body_(body), poses_(static_cast<std::size_t>(points + 1)) {}
+    StepGuess(const G& group, const BodyMechanics<T>& body) : group_(group), body_(body) {}
 
-    /// Fills the columns of `points` with the coordinates, seen from the base point of the chart, of the
-    /// curve at the times (in steps from the known end on, without 0); mu: momentum in the body at that end.
+    /// Fills the columns of `points` with the coordinates of the curve at the times (ascending, in steps from
+    /// the start on), seen from the base point of the chart, which is that at the time `base`; mu: momentum
+    /// in the body at the start.
     template <class Columns>
-    void curve(const Pose<T>& known, const Vector& mu, const std::vector<T>& times, const T& step,
-               bool isAdjoint, Columns& points) {
-        const auto last = times.size();
-        poses_[0] = known;
-        poses_[0].momentum = mu.template head<3>();
-        for (std::size_t k = 0; k < last; ++k)
-            poses_[k + 1] =
-                guessedAfter(body_, poses_[k], T((times[k] - (k > 0 ? times[k - 1] : T(0))) * step));
-        // The points are symmetric in time: the adjoint step sees the same ones from the end.
-        const Pose<T>& base = poses_[isAdjoint ? last : 0];
-        const Vector w = rate(body_, {}, mu);
-        for (std::size_t k = 0; k < last; ++k) {
-            const Pose<T>& place = poses_[isAdjoint ? last - k - 1 : k + 1];
-            points.col(static_cast<Eigen::Index>(k)) =
-                coordinates(group_, base, place, Vector(((isAdjoint ? T(-step) : step) * times[k]) * w));
+    void curve(const Pose<T>& known, const Vector& mu, const std::vector<T>& times, const T& base,
+               const T& step, Columns& points) {
+        start_ = known;
+        start_.momentum = mu.template head<3>();
+        places_.resize(times.size());
+        Pose<T> at = start_, atBase = start_;
+        T reached(0);
+        const auto to = [&](const T& time) -> const Pose<T>& {
+            if (time != reached) at = guessedAfter(body_, at, T((time - reached) * step));
+            reached = time;
+            return at;
+        };
+        bool isBaseKnown = false;
+        for (std::size_t k = 0; k < times.size(); ++k) {
+            if (!isBaseKnown && times[k] > base) {
+                atBase = to(base);
+                isBaseKnown = true;
+            }
+            places_[k] = to(times[k]);
         }
+        if (!isBaseKnown) atBase = to(base);
+        const Vector w = rate(body_, {}, mu);
+        for (std::size_t k = 0; k < times.size(); ++k)
+            points.col(static_cast<Eigen::Index>(k)) =
+                coordinates(group_, atBase, places_[k], Vector((step * (times[k] - base)) * w));
     }
     /// False where the potential has no force at the start: in a singularity.
-    bool isRateFinite() const { return extremal::isRateFinite(body_, poses_[0]); }
+    bool isRateFinite() const { return extremal::isRateFinite(body_, start_); }
 
     /// The angular velocity of a momentum in the body, as coordinates per unit of time.
     static Vector rate(const BodyMechanics<T>& body, const typename G::Element&, const Vector& mu) {
@@ -130,7 +139,8 @@ public:
 private:
     G group_;
     BodyMechanics<T> body_;
-    std::vector<Pose<T>> poses_;
+    Pose<T> start_;
+    std::vector<Pose<T>> places_;
 };
 
 }  // namespace extremal

@@ -17,20 +17,22 @@ namespace extremal {
 
 template <class T, class G>
 LieStep<T, G>::LieStep(const Mechanics& mechanics, Table<T> table, const T& step, bool isReduced,
-                       bool isAdjoint, SolverPolicy policy)
+                       const T& base, SolverPolicy policy)
     : group_(mechanics),
       table_(std::move(table)),
-      h_(isAdjoint ? T(-step) : step),
-      isAdjoint_(isAdjoint),
+      h_(step),
+      nu_(base),
+      hasBegin_(base != T(0)),
+      hasEnd_(base != T(1)),
       policy_(policy),
       tolerance_(toleranceOf<T>(policy)),
       lagrangian_(mechanics),
-      guess_(group_, mechanics, m()),
+      guess_(group_, mechanics),
       charts_(chartsOf<G>(group_)) {
     isUnreduced_ = !lagrangian_.isFree() || (Lagrangian::hasSpaceForm && !isReduced);
     for (Columns* c : {&Y_, &R_, &points_}) *c = Columns::Zero(d(), m());
     for (Columns* c : {&xi_, &v_, &force_}) *c = Columns::Zero(d(), nodes());
-    W_ = mu_ = forXi_ = forV_ = end_ = Vector::Zero(d());
+    W_ = mu_ = muBase_ = forXi_ = forV_ = begin_ = end_ = Vector::Zero(d());
     if constexpr (hasIsotropy) inSpace_ = W_;
     const int size = d() * m();
     if constexpr (isCoupled)
@@ -38,52 +40,84 @@ LieStep<T, G>::LieStep(const Mechanics& mechanics, Table<T> table, const T& step
     else
         lu_ = SmallLu<T>(size);
     flat_ = Flat::Zero(size);
-    // Y from the values of xi at m points, and back.
-    const std::vector<T> points = lobatto<T>(m() + 1).c;
+    const auto functionsAt = [&](const T& tau) {
+        std::vector<T> value(static_cast<std::size_t>(table_.space.size)), slope(value.size());
+        table_.space.evaluate(tau, value, slope);
+        const Flat phi = table_.change.transpose() * Eigen::Map<const Flat>(value.data(), table_.space.size);
+        return std::vector<T>(phi.begin(), phi.end());
+    };
+    // At the ends they are 0, but for the last at the end: to the last bit.
+    atBase_.assign(static_cast<std::size_t>(m()), T(0));
+    atEnd_ = atBase_;
+    atEnd_.back() = T(1);
+    if (!hasEnd_)
+        atBase_ = atEnd_;
+    else if (hasBegin_)
+        atBase_ = functionsAt(nu_);
+    for (std::size_t a = 0; a < atBase_.size(); ++a) {
+        atBegin_.push_back(-atBase_[a]);
+        atEnd_[a] -= atBase_[a];
+        table_.value.col(static_cast<Eigen::Index>(a)).array() -= atBase_[a];
+    }
+    // Y from the values of xi at m points, and back: at the base point it is 0 whatever Y is.
+    times_ = lobatto<T>(m() + 1).c;
+    using std::abs;
+    times_.erase(std::min_element(times_.begin(), times_.end(), [this](const T& one, const T& other) {
+        return abs(one - nu_) < abs(other - nu_);
+    }));
     atPoints_ = Square(m(), m());
-    std::vector<T> value(static_cast<std::size_t>(table_.space.size)), slope(value.size());
     for (int k = 0; k < m(); ++k) {
-        times_.push_back(points[static_cast<std::size_t>(k + 1)]);
-        table_.space.evaluate(times_.back(), value, slope);
-        atPoints_.row(k) =
-            Eigen::Map<const Flat>(value.data(), table_.space.size).transpose() * table_.change;
+        const std::vector<T> phi = functionsAt(valueOf(times_, k));
+        for (int a = 0; a < m(); ++a) atPoints_(k, a) = valueOf(phi, a) - valueOf(atBase_, a);
     }
     fit_ = dense::inverse<T>(atPoints_);
 }
 
-/// xi_i and xi'_i from Y.
+/// xi_i, xi'_i and xi at the ends from Y.
 template <class T, class G>
 void LieStep<T, G>::placeNodes() {
     xi_.noalias() = Y_.lazyProduct(table_.value.transpose());
     v_.noalias() = Y_.lazyProduct(table_.derivative.transpose());
     v_ /= h_;
+    begin_.setZero();
+    end_.setZero();
+    for (int a = 0; a < m(); ++a) {
+        if (hasBegin_) begin_ += valueOf(atBegin_, a) * Y_.col(a);
+        if (valueOf(atEnd_, a) != T(0)) end_ += valueOf(atEnd_, a) * Y_.col(a);
+    }
 }
 
-/// The base point of the adjoint step follows from the unknowns.
+/// The base point follows from the unknowns where it is not the start.
 template <class T, class G>
-void LieStep<T, G>::placeFoot() {
-    if (!isAdjoint_) return;
-    end_ = -Y_.col(m() - 1);
-    base_ = group_.place(known_, group_.element(known_), end_);
+void LieStep<T, G>::placeBase() {
+    if (!hasBegin_) return;
+    forXi_ = -begin_;
+    base_ = group_.place(known_, knownElement_, forXi_);
     baseElement_ = group_.element(base_);
 }
 
 /// Y of the curve through guessed poses at the m points; false where the step is so long that there is none.
 template <class T, class G>
 bool LieStep<T, G>::predict() {
-    guess_.curve(known_, mu_, times_, isAdjoint_ ? T(-h_) : h_, isAdjoint_, points_);
+    guess_.curve(known_, mu_, times_, nu_, h_, points_);
     Y_.noalias() = points_.lazyProduct(fit_.transpose());
     using std::isfinite;
     return isfinite(Y_.squaredNorm());
 }
 
-/// R, the equations at the present Y: dL_d/dY by the chain rule, less the momentum at the end of the chart.
-/// Fills force_ (as momenta at the base point) and W.
+/// R, the equations at the present Y: dL_d/dY by the chain rule, less the momenta at the ends of the chart.
+/// Fills force_ (as momenta at the base point), W and mu_b.
 template <class T, class G>
 void LieStep<T, G>::residual() {
     R_.setZero();
     W_.setZero();
-    if (isUnreduced_) placeFoot();
+    if (isUnreduced_) placeBase();
+    if (hasBegin_) {
+        auto&& start = chart<0>(begin_);
+        muBase_ = start.rotateMomentum(mu_);
+        forXi_ = start.dexpTransposed(mu_);
+        for (int a = 0; a < m(); ++a) R_.col(a) += valueOf(atBegin_, a) * forXi_;
+    }
     for (int i = 0; i < nodes(); ++i) {
         auto&& at = chart<1>(xi_.col(i));
         if (!isUnreduced_) {
@@ -96,48 +130,60 @@ void LieStep<T, G>::residual() {
         }
         addGradient(m(), testAt(i), forXi_, forV_, [&](int a) { return R_.col(a); });
     }
-    auto&& end = chart<0>(Y_.col(m() - 1));
-    if (isAdjoint_)
-        R_.col(m() - 1) -= end.dexpTransposed(mu_);
-    else
-        R_.col(m() - 1) -= end.dexpRightTransposed(mu_ - W_);
+    if (hasEnd_) {
+        auto&& end = chart<0>(end_);
+        forXi_ = end.dexpRightTransposed(muBase_ - W_);
+        for (int a = 0; a < m(); ++a)
+            if (valueOf(atEnd_, a) != T(0)) R_.col(a) -= valueOf(atEnd_, a) * forXi_;
+    }
     if constexpr (hasIsotropy)
         for (const int k : group_.isotropy()) R_.row(k) = Y_.row(k);
     // Of the attitude, a free body has a force to evaluate besides.
     report_->cost.evaluations += (isUnreduced_ && lagrangian_.isFree() ? 2 : 1) * nodes();
 }
 
-/// Adds what the force at node i does to the equations through the base point, which moves with the last
-/// unknown of an adjoint step, and through W.
+/// Adds what the force at node i does to the equations through the base point, which moves by `toBase` with
+/// xi_0, and through W.
 template <class T, class G>
 void LieStep<T, G>::addForceAt(int i, const typename G::template Chart<2>& at,
-                               const typename Lagrangian::ForceSlope& F) requires(!isCoupled) {
+                               const typename Lagrangian::ForceSlope& F,
+                               const Matrix& toBase) requires(!isCoupled) {
     auto jacobian = this->jacobian();
-    const int last = d() * (m() - 1);
-    const Vector xiEnd = Y_.col(m() - 1);
-    const auto end = group_.template chart<0>(xiEnd), opposite = group_.template chart<0>(Vector(-xiEnd));
-    if (isAdjoint_) {
-        // The base point moves by -dexp(-xi_s) with the last unknown, and the node with it.
-        Matrix moved = opposite.dexpMatrix();
-        for (int k = 0; k < d(); ++k) moved.col(k) = (-at.rotateBack(moved.col(k))).eval();
-        addGradient(m(), testAt(i), Matrix(F.A().transpose() * F.S() * moved), Matrix(Matrix::Zero()),
-                    [&](int a) { return jacobian.template block<n, n>(d() * a, last, d(), d()); });
-        return;
+    Matrix byBase = Matrix::Zero(), byXi = byBase;
+    if (hasBegin_) {
+        for (int k = 0; k < d(); ++k) byBase.col(k) = at.rotateBack(toBase.col(k));
+        byBase = (F.S() * byBase).eval();
+        const Matrix onXi = F.A().transpose() * byBase;
+        for (int c = 0; c < m(); ++c)
+            addGradient(m(), testAt(i), Matrix(valueOf(atBegin_, c) * onXi), Matrix(Matrix::Zero()),
+                        [&](int a) { return jacobian.template block<n, n>(d() * a, d() * c, d(), d()); });
     }
-    // dexp(-xi_s)^T dW, with what xi does to the force.
-    Matrix byXi = (F.S() - group_.precessionMatrix(F.f())) * F.A();
-    for (int k = 0; k < d(); ++k)
-        byXi.col(k) = end.dexpRightTransposed(at.rotateMomentum(byXi.col(k))).eval();
+    if (!hasEnd_) return;
+    // dexp(-xi_1)^T dW, with what xi does to the force.
+    byXi = (F.S() - group_.precessionMatrix(F.f())) * F.A();
+    const auto end = group_.template chart<0>(end_);
+    for (Matrix* const by : {&byXi, &byBase})
+        for (int k = 0; k < d(); ++k)
+            by->col(k) = end.dexpRightTransposed(at.rotateMomentum(by->col(k))).eval();
+    const T weight = table_.weight(i) * h_;
     for (int a = 0; a < m(); ++a)
-        jacobian.template block<n, n>(last, d() * a, d(), d()) -=
-            (table_.weight(i) * h_ * table_.value(i, a)) * byXi;
+        for (int c = 0; c < m() && valueOf(atEnd_, a) != T(0); ++c) {
+            Matrix by = table_.value(i, c) * byXi;
+            if (hasBegin_) by += valueOf(atBegin_, c) * byBase;
+            jacobian.template block<n, n>(d() * a, d() * c, d(), d()) -= (valueOf(atEnd_, a) * weight) * by;
+        }
 }
 
 /// dR/dY at the present Y.
 template <class T, class G>
 void LieStep<T, G>::fillJacobian() requires(!isCoupled) {
     auto jacobian = this->jacobian();
+    const auto block = [&](int a, int c) {
+        return jacobian.template block<n, n>(d() * a, d() * c, d(), d());
+    };
     jacobian.setZero();
+    Matrix toBase = Matrix::Zero();
+    if (hasBegin_) toBase = -chartToBase().dexpMatrix();
     for (int i = 0; i < nodes(); ++i) {
         const typename G::template Chart<2> at = group_.template chart<2>(xi_.col(i));
         typename Lagrangian::Second L;
@@ -146,22 +192,31 @@ void LieStep<T, G>::fillJacobian() requires(!isCoupled) {
         } else {
             typename Lagrangian::ForceSlope F;
             L = lagrangian_.second(group_.times(baseElement_, at), at, v_.col(i), F);
-            addForceAt(i, at, F);
+            addForceAt(i, at, F, toBase);
         }
         const Matrix xiV = L.vXi.transpose();
-        addHessian(m(), m(), testAt(i), trialAt(i), L.xiXi, xiV, L.vXi, L.vv,
-                   [&](int a, int c) { return jacobian.template block<n, n>(d() * a, d() * c, d(), d()); });
+        addHessian(m(), m(), testAt(i), trialAt(i), L.xiXi, xiV, L.vXi, L.vv, block);
     }
-    const auto end = group_.template chart<1>(Y_.col(m() - 1));
-    const int last = d() * (m() - 1);
-    jacobian.template block<n, n>(last, last, d(), d()) -=
-        isAdjoint_ ? end.derivativeOfTransposed(mu_) : end.derivativeOfRightTransposed(mu_ - W_);
+    if (hasBegin_) {
+        const auto start = group_.template chart<1>(begin_);
+        const Matrix by = start.derivativeOfTransposed(mu_);
+        forFunctions(atBegin_, atBegin_, [&](int a, int c, const T& both) { block(a, c) += both * by; });
+    }
+    if (!hasEnd_) return;
+    const auto end = group_.template chart<1>(end_);
+    const Matrix by = end.derivativeOfRightTransposed(muBase_ - W_);
+    forFunctions(atEnd_, atEnd_, [&](int a, int c, const T& both) { block(a, c) -= both * by; });
+    if (!hasBegin_) return;
+    Matrix byBase = group_.precessionMatrix(muBase_) * toBase;
+    for (int k = 0; k < d(); ++k) byBase.col(k) = end.dexpRightTransposed(byBase.col(k)).eval();
+    forFunctions(atEnd_, atBegin_, [&](int a, int c, const T& both) { block(a, c) -= both * byBase; });
 }
 
 /// The Jacobian at the present Y, and its factorisation.
 template <class T, class G>
 Outcome LieStep<T, G>::assembleJacobian() {
-    if (isUnreduced_) placeFoot();
+    if (isUnreduced_) placeBase();
+    if (hasBegin_) muBase_ = chart<0>(begin_).rotateMomentum(mu_);
     fillJacobian();
     report_->cost.evaluations += nodes();
     ++report_->cost.linearSolves;
@@ -218,7 +273,8 @@ template <class T, class G>
 void LieStep<T, G>::updateImpulse() {
     W_.setZero();
     if constexpr (hasIsotropy) inSpace_.setZero();
-    placeFoot();
+    placeBase();
+    if (hasBegin_) group_.carry(known_, knownElement_, W_, base_);
     if (lagrangian_.isFree()) return;
     for (int i = 0; i < nodes(); ++i) {
         auto&& at = chart<0>(xi_.col(i));
@@ -268,35 +324,29 @@ template <class T, class G>
 Outcome LieStep<T, G>::advance(Pose& pose, StepReport& report, const std::stop_token& stop) {
     report_ = &report;
     known_ = base_ = pose;
-    baseElement_ = group_.element(known_);
-    mu_ = group_.bodyMomentum(baseElement_, known_);
+    baseElement_ = knownElement_ = group_.element(known_);
+    mu_ = muBase_ = group_.bodyMomentum(knownElement_, known_);
     if (!predict()) return guess_.isRateFinite() ? Outcome::diverged : Outcome::notFinite;
     const Outcome solved = iterate(stop);
     if (solved != Outcome::converged) return solved;
-    end_ = Y_.col(m() - 1);
-    if (group_.isBeyond(end_)) return Outcome::diverged;
-    if (isAdjoint_) {
-        group_.fetch(base_, baseElement_, W_, known_);
-        pose = base_;
-    } else {
-        pose = group_.place(base_, baseElement_, end_);
-        group_.carry(base_, baseElement_, W_, pose);
-    }
+    if (group_.isBeyond(end_) || group_.isBeyond(begin_)) return Outcome::diverged;
+    pose = hasEnd_ ? Pose(group_.place(base_, baseElement_, end_)) : base_;
+    group_.carry(base_, baseElement_, W_, pose);
     if constexpr (hasIsotropy)
-        if (group_.isOnSpheres()) pose.J = known_.J + T(isAdjoint_ ? 1 : -1) * inSpace_;
+        if (group_.isOnSpheres()) pose.J = known_.J - inSpace_;
     return Outcome::converged;
 }
 
 template <class T, class G>
 typename LieStep<T, G>::Pose LieStep<T, G>::denseOutput(const T& tau) const {
-    const T s = isAdjoint_ ? T(1) - tau : tau;
     std::vector<T> value(static_cast<std::size_t>(table_.space.size)), slope(value.size());
-    table_.space.evaluate(s, value, slope);
-    const Flat phi = table_.change.transpose() * Eigen::Map<const Flat>(value.data(), table_.space.size);
-    const Vector xi = Y_ * phi;
+    table_.space.evaluate(tau, value, slope);
+    const Flat psi = table_.change.transpose() * Eigen::Map<const Flat>(value.data(), table_.space.size) -
+                     Eigen::Map<const Flat>(atBase_.data(), m());
+    const Vector xi = Y_ * psi;
     Vector W = Vector::Zero(d());
     if (isUnreduced_) {
-        const std::vector<T> share = weightsUpTo(table_, s);
+        const std::vector<T> share = weightsUpTo(table_, tau);
         for (int i = 0; i < nodes(); ++i) W -= (h_ * share[static_cast<std::size_t>(i)]) * force_.col(i);
     }
     Pose at = group_.place(base_, baseElement_, xi);

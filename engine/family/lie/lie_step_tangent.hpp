@@ -2,12 +2,12 @@
 /// The tangent map of LieStep, left trivialised: (zeta_0, dmu_0) -> (zeta_1, dmu_1), zeta = g^{-1} dg.
 /// Included by lie_step_build.hpp.
 ///
-/// The base point of the chart moves by zeta_b, a node by Ad_exp(-xi_i) zeta_b + dexp(xi_i) dxi_i, and the
-/// force there by its slope. With K the Jacobian of the equations at the solution, factored anew,
-///     K dY = -dR(zeta_0, dmu_0; dY = 0),     eta = dexp(xi_s) dxi_s,
-///     zeta_1 = Ad_exp(-xi_s) zeta_0 + eta,    dmu_1 = Ad_exp(xi_s)^T (dmu_0 - dW) + ad_eta^T mu_1.
-/// In the adjoint step the base point is the end, zeta_1 = zeta_b = Ad_exp(xi_s) zeta_0 + eta with eta =
-/// -dexp(-xi_s) dxi_s, and dmu_1 = Ad_exp(-xi_s)^T dmu_0 + ad_eta^T (mu_1 - W) + dW.
+/// With K the Jacobian of the equations at the solution, factored anew, the base point moves by
+///     zeta_b = Ad_exp(xi_0) zeta_0 + beta,   beta = -dexp(-xi_0) dxi_0,
+/// a node by Ad_exp(-xi_i) zeta_b + dexp(xi_i) dxi_i, and the force there by its slope:
+///     K dY = -dR(zeta_0, dmu_0; dY = 0),     eta = dexp(xi_1) dxi_1,
+///     zeta_1 = Ad_exp(-xi_1) zeta_b + eta,
+///     dmu_1 = Ad_exp(xi_1)^T (Ad_exp(-xi_0)^T dmu_0 + ad_beta^T mu_b - dW) + ad_eta^T mu_1.
 #pragma once
 
 #include "engine/family/lie/lie_step.hpp"
@@ -50,32 +50,30 @@ bool LieStep<T, G>::applyTangent(T* W, int columns) {
     StepReport unused;
     report_ = &unused;
     if (assembleJacobian() != Outcome::converged) return false;
-    const Vector xiEnd = Y_.col(m() - 1);
-    auto end = group_.template chart<0>(xiEnd), opposite = group_.template chart<0>(Vector(-xiEnd));
+    auto end = group_.template chart<0>(end_), start = group_.template chart<0>(begin_),
+         toBase = group_.template chart<0>(Vector(-begin_));
     for (T* w = W; columns > 0; --columns, w += 2 * d()) {
         Eigen::Map<Vector> zeta(w, d()), dmu(w + d(), d());
-        Vector base = isAdjoint_ ? opposite.rotateBack(zeta) : Vector(zeta);
-        Vector dW = vary(base, false);
-        R_.col(m() - 1) -= isAdjoint_ ? end.dexpTransposed(dmu) : end.dexpRightTransposed(dmu - dW);
+        Vector base = toBase.rotateBack(zeta), dmuBase = start.rotateMomentum(dmu), dW = vary(base, false);
+        const Vector forEnd = end.dexpRightTransposed(dmuBase - dW), forBegin = start.dexpTransposed(dmu);
+        for (int a = 0; a < m(); ++a)
+            R_.col(a) += valueOf(atBegin_, a) * forBegin - valueOf(atEnd_, a) * forEnd;
         if constexpr (hasIsotropy)
             for (const int k : group_.isotropy()) R_.row(k).setZero();  // xi_k = 0, whatever varies
         for (int a = 0; a < m(); ++a) part(a) = -R_.col(a);
         lu_.solve(flat_.data());
-        const Vector dxi = part(m() - 1);
-        if (isAdjoint_) {
-            const Vector eta = -opposite.dexp(dxi);
-            base += eta;
-            dW = vary(base, true);
-            const Vector carried = end.rotateMomentum(dmu);
-            dmu = carried + group_.precession(end.rotateMomentum(mu_), eta) + dW;
-            zeta = base;
-        } else {
-            const Vector eta = end.dexp(dxi);
-            dW = vary(base, true);
-            const Vector carried = end.rotateMomentumBack(dmu - dW);
-            dmu = carried + group_.precession(end.rotateMomentumBack(mu_ - W_), eta);
-            zeta = (end.rotateBack(zeta) + eta).eval();
+        Vector dBegin = Vector::Zero(d()), dEnd = dBegin;
+        for (int a = 0; a < m(); ++a) {
+            dBegin += valueOf(atBegin_, a) * part(a);
+            dEnd += valueOf(atEnd_, a) * part(a);
         }
+        const Vector beta = -toBase.dexp(dBegin), eta = end.dexp(dEnd);
+        base += beta;
+        dmuBase += group_.precession(muBase_, beta);
+        dW = vary(base, true);
+        const Vector carried = end.rotateMomentumBack(dmuBase - dW);
+        dmu = carried + group_.precession(end.rotateMomentumBack(muBase_ - W_), eta);
+        zeta = (end.rotateBack(base) + eta).eval();
     }
     return true;
 }

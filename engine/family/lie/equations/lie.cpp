@@ -15,9 +15,10 @@
 namespace extremal::equations {
 namespace {
 
-std::string inTwoCharts(const Discretization& d) {
+std::string outsideOfChart(const Discretization& d) {
     if (d.space.type == "quaternion-polynomial") return "of first order, without a Lagrangian in a chart";
-    return d.space.flag("symmetric") ? "made of two half steps, each with a chart of its own" : "";
+    if (d.space.flag("symmetric")) return "made of two half steps, each with a chart of its own";
+    return d.space.number("base") == 0 ? "" : "made in a chart that is not at the start of the step";
 }
 
 Table<double> tableInAlgebra(const StepCase& c) {
@@ -95,10 +96,10 @@ LocalCoordinates inChartOf(const System& system, const State& start) {
 StepEquations lie() {
     StepEquations e;
     e.family = "lie";
-    e.matrix = {[](const StepCase& c) { return saddleMatrix(c, tableInAlgebra(c)); }, "", inTwoCharts};
+    e.matrix = {[](const StepCase& c) { return saddleMatrix(c, tableInAlgebra(c)); }, "", outsideOfChart};
     e.functions = {tableInAlgebra, "", nullptr};
     e.spaceFunctions.instead = "curves in the algebra, functions of time alone";
-    e.coordinates = {inChartOf, "", inTwoCharts};
+    e.coordinates = {inChartOf, "", outsideOfChart};
     return e;
 }
 

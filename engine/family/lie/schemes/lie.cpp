@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Lie group variational integrator of degree s with Gauss(s).
+#include "engine/family/lie/lie.hpp"
 #include "engine/family/scheme.hpp"
 
 namespace extremal::schemes {
@@ -19,10 +20,7 @@ SchemeEntry lie() {
     e.maxDegree = 8;
     e.make = [](int degree) {
         Discretization discretization;
-        discretization.space = {
-            "lie-polynomial",
-            {{"degree", static_cast<double>(degree)}, {"symmetric", false}, {"reduced", true}},
-            {}};
+        discretization.space = lieSpace(degree);
         discretization.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}}, {}};
         return discretization;
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Half a step of the adjoint Lie group integrator of degree s with Gauss(s), then half a step of it.
+#include "engine/family/lie/lie.hpp"
 #include "engine/family/scheme.hpp"
 
 namespace extremal::schemes {
@@ -18,10 +19,7 @@ SchemeEntry lie_symmetric() {
     e.maxDegree = 8;
     e.make = [](int degree) {
         Discretization discretization;
-        discretization.space = {
-            "lie-polynomial",
-            {{"degree", static_cast<double>(degree)}, {"symmetric", true}, {"reduced", true}},
-            {}};
+        discretization.space = lieSpace(degree, true);
         discretization.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}}, {}};
         return discretization;
     };
