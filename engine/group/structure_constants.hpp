@@ -3,7 +3,8 @@
 ///
 ///     [E_i, E_j] = sum_k c_ijk E_k,   bracket(x, y) = [x, y] = ad_x y,   coadjoint(x, m) = ad_x^T m.
 ///
-/// Vectors are of any type of Eigen's columns, and results of the type of the last argument.
+/// Vectors are of any type of Eigen's columns, and results of the type of the last argument, which may be a
+/// matrix kept by rows: each of its columns is then taken by itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,21 +32,60 @@ public:
     }
     const std::vector<Bracket>& brackets() const { return brackets_; }
 
-    template <class V>
-    V bracket(const V& x, const V& y) const {
-        V r = V::Zero(y.size());
-        for (const Bracket& b : brackets_) r(b.k) += b.value * (x(b.i) * y(b.j) - x(b.j) * y(b.i));
+    template <class V, class M>
+    M bracket(const V& x, const M& y) const {
+        M r = M::Zero(y.rows(), y.cols());
+        addBracket(1, x, y, r);
         return r;
     }
-    template <class V>
-    V coadjoint(const V& x, const V& m) const {
-        V r = V::Zero(m.size());
+    template <class V, class M>
+    M coadjoint(const V& x, const M& m) const {
+        M r = M::Zero(m.rows(), m.cols());
+        addCoadjoint(1, x, m, r);
+        return r;
+    }
+    /// r += scale [x, y].
+    template <class V, class M>
+    void addBracket(double scale, const V& x, const M& y, M& r) const {
+        for (const Bracket& b : brackets_) {
+            const double size = scale * b.value;
+            addRow(size * x(b.i), y, b.j, r, b.k);
+            addRow(-size * x(b.j), y, b.i, r, b.k);
+        }
+    }
+    /// r += scale ad_x^T m.
+    template <class V, class M>
+    void addCoadjoint(double scale, const V& x, const M& m, M& r) const {
+        for (const Bracket& b : brackets_) {
+            const double size = scale * b.value;
+            addRow(size * x(b.i), m, b.k, r, b.j);
+            addRow(-size * x(b.j), m, b.k, r, b.i);
+        }
+    }
+    /// r += ad_x^T m of each column x of a matrix.
+    template <class V, class M>
+    void addCoadjointBy(const M& x, const V& m, M& r) const {
         for (const Bracket& b : brackets_) {
             const double of = b.value * m(b.k);
-            r(b.j) += x(b.i) * of;
-            r(b.i) -= x(b.j) * of;
+            addRow(of, x, b.i, r, b.j);
+            addRow(-of, x, b.j, r, b.i);
         }
-        return r;
+    }
+    /// The matrices of ad_x, and of x -> ad_x^T m, added to one.
+    template <class V, class M>
+    void addMatrix(const V& x, M& r) const {
+        for (const Bracket& b : brackets_) {
+            r(b.k, b.j) += b.value * x(b.i);
+            r(b.k, b.i) -= b.value * x(b.j);
+        }
+    }
+    template <class V, class M>
+    void addCoadjointMatrix(double scale, const V& m, M& r) const {
+        for (const Bracket& b : brackets_) {
+            const double of = scale * b.value * m(b.k);
+            r(b.j, b.i) += of;
+            r(b.i, b.j) -= of;
+        }
     }
     /// ad of the basis vector k, times y.
     template <class V>
@@ -75,6 +115,18 @@ public:
     }
 
 private:
+    template <class M>
+    static void addRow(double scale, const M& from, int row, M& to, int into) {
+        if constexpr (M::ColsAtCompileTime == 1) {
+            to(into) += scale * from(row);
+        } else {
+            static_assert(M::IsRowMajor);
+            const Eigen::Index n = from.cols();
+            const double* const source = from.data() + row * n;
+            double* const target = to.data() + into * n;
+            for (Eigen::Index k = 0; k < n; ++k) target[k] += scale * source[k];
+        }
+    }
     struct Entry {
         int row, column;
         double value;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The chart of any matrix group at xi, by sweeps of brackets (group/algebra_series.hpp). Second derivatives
-/// are to the accuracy of a Jacobian.
+/// The chart of any matrix group at xi, by sweeps of brackets (group/algebra_series.hpp). Matrices are swept
+/// with all their columns at once.
 #pragma once
 
 #include <array>
@@ -48,9 +48,11 @@ public:
         return series::phi(m, terms_, [&](const Vector& y) -> Vector { return coadjoint(y); });
     }
     Matrix dexpMatrix() const {
-        Matrix A(d(), d());
-        for (int k = 0; k < d(); ++k) A.col(k) = dexp(Vector::Unit(d(), k));
-        return A;
+        return series::phi(Rows(Rows::Identity(d(), d())), terms_, [&](const Rows& y) {
+            Rows r = Rows::Zero(d(), d());
+            group_->addBracket(-1, xi_, y, r);
+            return r;
+        });
     }
     /// The matrix direction -> D_xi [dexp(xi)^T m] . direction (m fixed), and that of dexp(-xi)^T m.
     Matrix derivativeOfTransposed(const Vector& m) const { return slopesOfPull(m, 1); }
@@ -61,7 +63,12 @@ public:
         Vector eta = Vector::Zero(d());
         double factorial = 1;
         for (int n = 0; n < terms_; ++n) {
-            w_[at(n)] = n == 0 ? v : Vector(-bracket(w_[at(n - 1)]));
+            if (n == 0) {
+                w_[0] = v;
+            } else {
+                w_[at(n)].setZero(d());
+                group_->addBracket(-1, xi_, w_[at(n - 1)], w_[at(n)]);
+            }
             factorial *= n + 1;
             eta += w_[at(n)] / factorial;
         }
@@ -72,33 +79,37 @@ public:
         sweepBack(m, 1, lambda_);
         forV = lambda_[0];
         forXi = Vector::Zero(d());
-        for (int n = 0; n + 1 < terms_; ++n) forXi += group_->coadjoint(w_[at(n)], lambda_[at(n + 1)]);
+        for (int n = 0; n + 1 < terms_; ++n) group_->addCoadjoint(1, w_[at(n)], lambda_[at(n + 1)], forXi);
     }
     /// Of the curve of the last sweep and the momentum of the last pull.
     ChartDerivatives derivatives() const {
         ChartDerivatives r;
         r.A = dexpMatrix();
         r.B = derivativeOfTransposed(lambdaSource());
-        r.D = r.H = Matrix::Zero(d(), d());
-        for (int k = 0; k < d(); ++k) {
-            std::array<Vector, series::mostTerms> slopes;
-            slopesBack(lambda_, k, 1, slopes);
-            Vector dw = Vector::Zero(d());
-            double factorial = 1;
-            for (int n = 0; n < terms_; ++n) {
-                factorial *= n + 1;
-                r.D.col(k) += dw / factorial;
-                if (n + 1 == terms_) break;
-                r.H.col(k) += group_->coadjoint(dw, lambda_[at(n + 1)]) +
-                              group_->coadjoint(w_[at(n)], slopes[at(n + 1)]);
-                dw = (-group_->bracketOfBasis(k, w_[at(n)]) - bracket(dw)).eval();
-            }
+        // Column k: the derivatives of the w along basis vector k, -[E_k, w] - [xi, dw]. Both slopes of
+        // m . dexp(xi) v act at two places of the same brackets, in one order or the other.
+        Rows dw = Rows::Zero(d(), d()), next = dw, D = dw, inOrder = dw;
+        double factorial = 1;
+        for (int n = 0; n < terms_; ++n) {
+            factorial *= n + 1;
+            D += dw / factorial;
+            if (n + 1 == terms_) break;
+            group_->addCoadjointBy(dw, lambda_[at(n + 1)], inOrder);
+            next.setZero();
+            group_->addMatrix(w_[at(n)], next);
+            group_->addBracket(-1, xi_, dw, next);
+            dw.swap(next);
         }
+        r.D = D;
+        r.H = inOrder;
+        r.H += inOrder.transpose();
         return r;
     }
 
 private:
     using Sweep = std::array<Vector, series::mostTerms>;
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
+                               Matrix::MaxRowsAtCompileTime, Matrix::MaxColsAtCompileTime>;
     static std::size_t at(int n) { return static_cast<std::size_t>(n); }
     int d() const { return static_cast<int>(xi_.size()); }
     Vector bracket(const Vector& y) const { return group_->bracket(xi_, y); }
@@ -116,25 +127,21 @@ private:
         for (int n = terms_ - 1; n >= 0; --n) {
             lambda[at(n)] = m / factorial;
             factorial /= n + 1;
-            if (n + 1 < terms_) lambda[at(n)] -= sign * coadjoint(lambda[at(n + 1)]);
+            if (n + 1 < terms_) group_->addCoadjoint(-sign, xi_, lambda[at(n + 1)], lambda[at(n)]);
         }
     }
-    /// The derivatives of the lambda along basis vector k.
-    void slopesBack(const Sweep& lambda, int k, double sign, Sweep& slopes) const {
-        slopes[at(terms_ - 1)] = Vector::Zero(d());
-        for (int n = terms_ - 2; n >= 0; --n)
-            slopes[at(n)] =
-                -sign * (group_->coadjointOfBasis(k, lambda[at(n + 1)]) + coadjoint(slopes[at(n + 1)]));
-    }
+    /// Column k: the derivative of lambda_0 along basis vector k.
     Matrix slopesOfPull(const Vector& m, double sign) const {
-        Sweep lambda, slopes;
+        Sweep lambda;
         sweepBack(m, sign, lambda);
-        Matrix B(d(), d());
-        for (int k = 0; k < d(); ++k) {
-            slopesBack(lambda, k, sign, slopes);
-            B.col(k) = slopes[0];
+        Rows slopes = Rows::Zero(d(), d()), next = slopes;
+        for (int n = terms_ - 2; n >= 0; --n) {
+            next.setZero();
+            group_->addCoadjointMatrix(-sign, lambda[at(n + 1)], next);
+            group_->addCoadjoint(-sign, xi_, slopes, next);
+            slopes.swap(next);
         }
-        return B;
+        return slopes;
     }
 
     const StructureConstants* group_;
