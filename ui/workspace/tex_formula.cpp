@@ -94,19 +94,13 @@ private:
     /// What is in braces, or one token.
     QString argument() {
         skipSpace();
-        if (isAtEnd() || levels_ > mostLevels) return {};
-        ++levels_;
-        QString text;
+        if (isAtEnd()) return {};
         if (text_[at_] == '{') {
             ++at_;
-            text = sum("}");
-        } else if (text_[at_].isDigit()) {
-            text = text_[at_++];  // \frac12
-        } else {
-            text = next(false).text;
+            return sum("}");
         }
-        --levels_;
-        return text;
+        if (text_[at_].isDigit()) return text_[at_++];  // \frac12
+        return next(false).text;
     }
     /// In brackets where it is more than one factor.
     static QString bracketed(const QString& text) {
@@ -144,7 +138,15 @@ private:
         return part;
     }
 
+    /// Of what is nested deeper than anybody writes the rest is left out.
     Part next(bool takesPower = true) {
+        if (levels_ == mostLevels) at_ = text_.size();
+        ++levels_;
+        Part part = partAt(takesPower);
+        --levels_;
+        return part;
+    }
+    Part partAt(bool takesPower) {
         skipSpace();
         if (isAtEnd()) return {};
         const QChar c = text_[at_];
@@ -158,14 +160,12 @@ private:
         ++at_;
         if (c == 'e' && takesPower) return exponential();
         if (c.isLetter()) return whole({Part::letter, withIndex(c)});
-        if (levels_ <= mostLevels && (c == '(' || c == '[' || c == '{')) {
-            ++levels_;
+        if (c == '(' || c == '[' || c == '{') {
             const QString inside = sum(c == '(' ? ")" : c == '[' ? "]" : "}");
-            --levels_;
             return whole({Part::bracket, "(" + inside + ")"});
         }
         if (c == '|') return whole({Part::bracket, "abs(" + sum("|") + ")"});
-        if (c == '}' || c == '{') return {};
+        if (c == '}') return {};
         if (c == QChar(0x2212)) return {Part::sign, "-"};
         return {Part::sign, c};
     }

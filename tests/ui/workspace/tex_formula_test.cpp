@@ -2,6 +2,8 @@
 /// TeX becomes formulas that the program reads.
 #include <QTest>
 
+#include <cstring>
+
 #include "engine/core/text/expression.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/workspace/tex_formula.hpp"
@@ -44,6 +46,13 @@ private slots:
             QVERIFY(formulaFromTex(text).size() < 100);
         QVERIFY(formulaFromTex(QString(5000, '{')).size() <= 20000);
         QVERIFY(formulaFromTex(QString("\\sin").repeated(2000)).size() <= 40000);
+        // Whatever may stand within itself, as often as there is room for it.
+        for (const char* text : {"\\sin", "\\lvert", "\\sqrt[", "\\sqrt", "\\frac", "\\dot", "(", "[", "{",
+                                 "\\sin^", "\\mathrm{sin}"}) {
+            const auto times = static_cast<qsizetype>(maxExpressionLength / std::strlen(text));
+            QVERIFY2(formulaFromTex(QString(text).repeated(times)).size() < 1000, text);
+        }
+        QCOMPARE(formulaFromTex("((((((((((x))))))))))^2"), QString("((((((((((x))))))))))^2"));
     }
 };
 
