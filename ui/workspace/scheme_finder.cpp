@@ -20,10 +20,11 @@ bool areSame(const Discretization& a, const Discretization& b) {
         return one.type == other.type && std::all_of(one.keys.begin(), one.keys.end(), [&](const auto& key) {
                    const Value* there = other.find(key.first);
                    if (!there || there->isNull() || key.second.isNull() || key.first == "basis") return true;
-                   const bool areNumbers = there->isNumber() && key.second.isNumber();
-                   return areNumbers
-                              ? std::max(1.0, there->asNumber()) == std::max(1.0, key.second.asNumber())
-                              : *there == key.second;
+                   // No cells or panels are one.
+                   const bool areCounts = (key.first == "cells" || key.first == "panels") &&
+                                          there->isNumber() && key.second.isNumber();
+                   return areCounts ? std::max(1.0, there->asNumber()) == std::max(1.0, key.second.asNumber())
+                                    : *there == key.second;
                });
     };
     return same(a.space, b.space) && same(a.quadrature, b.quadrature);
