@@ -8,6 +8,7 @@
 #include <cmath>
 #include <exception>
 
+#include "engine/model/parts/by_hand.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/written_form.hpp"
 #include "engine/run/run.hpp"
@@ -51,14 +52,16 @@ Value numbersFrom(const double* x, std::size_t count, const Value* before, const
 ResolvedScene shortened(const ResolvedScene& whole, const State& start) {
     ResolvedScene scene = whole;
     scene.initial = start;
-    scene.scene.initial.q.clear();
-    scene.scene.initial.pOrV.clear();
-    const auto d = static_cast<std::size_t>(scene.system->dimension());
-    for (std::size_t i = 0; i < d; ++i) {
-        scene.scene.initial.q.push_back(Number{start.x[i], {}});
-        scene.scene.initial.pOrV.push_back(Number{start.x[d + i], {}});
+    if (scene.system->hasCoordinates()) {
+        scene.scene.initial.q.clear();
+        scene.scene.initial.pOrV.clear();
+        const auto d = static_cast<std::size_t>(scene.system->dimension());
+        for (std::size_t i = 0; i < d; ++i) {
+            scene.scene.initial.q.push_back(Number{start.x[i], {}});
+            scene.scene.initial.pOrV.push_back(Number{start.x[d + i], {}});
+        }
+        scene.scene.initial.second = Initial::Second::momentum;
     }
-    scene.scene.initial.second = Initial::Second::momentum;
     scene.scene.reference.kind = ReferenceSpec::Kind::none;
     scene.reference.clear();
     scene.scene.events.clear();
@@ -107,6 +110,8 @@ std::vector<Edit> editsForState(const Value& document, const Scene& scene, const
         return editsForWrittenForm(document, system, *form, state, velocity, keepsMotion);
     const Value* const now = valueAt(document, "/initial");
     Value initial = now && now->isObject() ? *now : Value(Value::Object{});
+    if (const auto* const hand = system.parts.find<ByHand>())
+        return {{"/initial", hand->written(std::move(initial), state.x.data(), keepsMotion)}};
     const Value before = initial.find("q") ? *initial.find("q") : Value();
     initial.set("q", numbersFrom(state.x.data(), d, &before, &scene.initial.q));
     const auto drop = [&](std::initializer_list<const char*> keys) {
@@ -153,15 +158,16 @@ double BodyDragging::timePerSecond() const {
 void BodyDragging::take(const StagePlayer::Grip& grip) {
     resolved_ = workspace_.resolved();
     if (!resolved_ || !hasMovableBodies(*resolved_->system)) return;
-    if (grip.x.size() != 2 * static_cast<std::size_t>(resolved_->system->dimension())) return;
+    if (grip.x.size() > resolved_->initial.x.size()) return;
     waitsForRun_ = false;
     wasPlaying_ = playback_.isPlaying();
     playback_.setPlaying(false);
     const double start = resolved_->scene.start.value;
     isFromStart_ = !(stage_.time() > start);
     // The start itself, where that is what is seen: its numbers may be written as formulas.
-    State state = isFromStart_ ? resolved_->initial : State{start, 0, grip.x};
-    drag_.emplace(resolved_->system, std::move(state), grip.shape);
+    State state = resolved_->initial;
+    if (!isFromStart_) std::copy(grip.x.begin(), grip.x.end(), state.x.begin());
+    drag_.emplace(resolved_->system, std::move(state), grip.held);
     isMoved_ = isThrown_ = false;
 }
 
@@ -210,7 +216,7 @@ void BodyDragging::request() {
 
 std::vector<Edit> BodyDragging::edits() const {
     return editsForState(workspace_.document(), workspace_.scene(), *resolved_->system, drag_->state(),
-                         isThrown_ ? drag_->velocity() : std::vector<double>{}, isFromStart_);
+                         isThrown_ ? drag_->velocity() : std::vector<double>{}, isFromStart_ && !isThrown_);
 }
 
 void BodyDragging::let(const Point& velocityOnScreen) {

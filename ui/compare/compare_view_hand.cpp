@@ -105,8 +105,7 @@ void CompareView::tellOfHand() {
         isByHand ? QString()
         : system_->field.isGraph
             ? tr("Drag with Ctrl to draw the initial profile.")
-            : tr("The bodies of this model are not dragged: its state is more than coordinates. "
-                 "Its start is set in the form on the left."));
+            : tr("What this model draws is not dragged. Its start is set in the form on the left."));
 }
 
 }  // namespace extremal

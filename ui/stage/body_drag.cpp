@@ -47,22 +47,54 @@ std::vector<double> leastChange(const std::vector<double>& J, const Point& wante
     return change;
 }
 
-}  // namespace
-
-bool hasMovableBodies(const System& system) {
-    const Mechanical* const lagrangian = system.parts.find<Mechanical>();  // of a velocity given by hand
-    return lagrangian && system.draw;
+/// What J times the first entries of `rate` lacks of a velocity.
+Point missingOf(const std::vector<double>& J, const std::vector<double>& rate, Point velocity) {
+    const std::size_t d = J.size() / 3;
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < d; ++i) velocity[k] -= J[k * d + i] * rate[i];
+    return velocity;
 }
 
-BodyDrag::BodyDrag(std::shared_ptr<const System> system, State state, std::size_t shape)
-    : system_(std::move(system)), state_(std::move(state)), shape_(shape) {}
+}  // namespace
+
+std::optional<Point> HeldPoint::in(const Drawing& drawing) const {
+    if (shape >= drawing.shapes.size()) return {};
+    if (const auto* disc = std::get_if<Disc>(&drawing.shapes[shape])) return disc->centre;
+    const auto* solid = std::get_if<Solid>(&drawing.shapes[shape]);
+    if (!solid || corner >= solid->corners.size()) return {};
+    return solid->corners[corner];
+}
+
+bool hasMovableBodies(const System& system) {
+    constexpr int most = 60;  // displacements, each of which is tried
+    if (!system.draw) return false;
+    if (system.parts.find<Mechanical>()) return true;  // of a velocity given by hand
+    const ByHand* const hand = system.parts.find<ByHand>();
+    return hand && hand->freedoms <= most;
+}
+
+BodyDrag::BodyDrag(std::shared_ptr<const System> system, State state, HeldPoint held)
+    : system_(std::move(system)),
+      hand_(system_->parts.find<ByHand>()),
+      state_(std::move(state)),
+      held_(held) {}
 
 Point BodyDrag::placeOf(const std::vector<double>& x) const {
     Drawing drawing;
     system_->draw(x.data(), drawing);
-    if (shape_ >= drawing.shapes.size()) return {};
-    const auto* disc = std::get_if<Disc>(&drawing.shapes[shape_]);
-    return disc ? disc->centre : Point{};
+    return held_.in(drawing).value_or(Point{});
+}
+
+std::size_t BodyDrag::freedoms() const {
+    return static_cast<std::size_t>(hand_ ? hand_->freedoms : system_->dimension());
+}
+
+std::vector<double> BodyDrag::displaced(std::vector<double> x, const std::vector<double>& by) const {
+    if (hand_)
+        hand_->move(x.data(), by.data());
+    else
+        for (std::size_t i = 0; i < by.size(); ++i) x[i] += by[i];
+    return x;
 }
 
 Drawing BodyDrag::drawing() const {
@@ -72,22 +104,21 @@ Drawing BodyDrag::drawing() const {
 }
 
 std::vector<double> BodyDrag::slope() const {
-    const auto d = static_cast<std::size_t>(system_->dimension());
-    std::vector<double> rows(3 * d), x = state_.x;
+    const std::size_t d = freedoms();
+    std::vector<double> rows(3 * d), by(d);
     for (std::size_t i = 0; i < d; ++i) {
-        const double by = 1e-6 * (1 + std::abs(x[i])), before = x[i];
-        x[i] = before + by;
-        const Point after = placeOf(x);
-        x[i] = before - by;
-        const Point ahead = placeOf(x);
-        x[i] = before;
-        for (std::size_t k = 0; k < 3; ++k) rows[k * d + i] = (after[k] - ahead[k]) / (2 * by);
+        const double step = 1e-6 * (hand_ ? 1 : 1 + std::abs(state_.x[i]));
+        by[i] = step;
+        const Point after = placeOf(displaced(state_.x, by));
+        by[i] = -step;
+        const Point ahead = placeOf(displaced(state_.x, by));
+        by[i] = 0;
+        for (std::size_t k = 0; k < 3; ++k) rows[k * d + i] = (after[k] - ahead[k]) / (2 * step);
     }
     return rows;
 }
 
 bool BodyDrag::moveTo(const Point& target) {
-    const auto d = static_cast<std::size_t>(system_->dimension());
     const State before = state_;
     const auto distance = [&](const Point& p) {
         return std::hypot(p[0] - target[0], p[1] - target[1], p[2] - target[2]);
@@ -101,7 +132,9 @@ bool BodyDrag::moveTo(const Point& target) {
         const State here = state_;
         bool isNearer = false;
         for (double part = 1; part > 0.05 && !isNearer; part /= 2) {
-            for (std::size_t i = 0; i < d; ++i) state_.x[i] = here.x[i] + part * change[i];
+            std::vector<double> by = change;
+            for (double& each : by) each *= part;
+            state_.x = displaced(here.x, by);
             const double away = distance(place());
             isNearer = away < best;
             if (isNearer) best = away;
@@ -122,16 +155,29 @@ bool BodyDrag::moveTo(const Point& target) {
     return isSound;
 }
 
+bool BodyDrag::throwByHand(const Point& velocity) {
+    const State before = state_;
+    const std::size_t d = freedoms();
+    const std::vector<double> J = slope();
+    std::vector<double> rate(d);
+    for (int correction = 0; correction < 3; ++correction) {
+        if (!hand_->velocity(state_.x.data(), rate.data())) break;
+        hand_->push(state_.x.data(), leastChange(J, missingOf(J, rate, velocity)).data());
+    }
+    const bool isSound =
+        std::all_of(state_.x.begin(), state_.x.end(), [](double v) { return std::isfinite(v); });
+    if (!isSound) state_ = before;
+    return isSound && state_.x != before.x;
+}
+
 bool BodyDrag::throwWith(const Point& velocity) {
+    if (hand_) return throwByHand(velocity);
     const auto d = static_cast<std::size_t>(system_->dimension());
     std::vector<double> rate(state_.x.size());
     if (!rateOf(*system_, state_.t, state_.x.data(), rate.data())) return false;
     const std::vector<double> J = slope();
     for (int correction = 0; correction < 3; ++correction) {
-        Point missing = velocity;
-        for (std::size_t k = 0; k < 3; ++k)
-            for (std::size_t i = 0; i < d; ++i) missing[k] -= J[k * d + i] * rate[i];
-        const std::vector<double> change = leastChange(J, missing);
+        const std::vector<double> change = leastChange(J, missingOf(J, rate, velocity));
         for (std::size_t i = 0; i < d; ++i) rate[i] += change[i];
     }
     if (!std::all_of(rate.begin(), rate.end(), [](double v) { return std::isfinite(v); })) return false;

@@ -17,6 +17,7 @@
 
 #include "engine/model/system.hpp"
 #include "engine/run/comparison.hpp"
+#include "ui/stage/body_drag.hpp"
 #include "ui/stage/potential_curves.hpp"
 #include "ui/stage/stage_frame.hpp"
 #include "ui/stage/stage_look.hpp"
@@ -52,15 +53,16 @@ public:
     void findPotential();
     bool hasPotential() const { return !potential_.curves.empty(); }
 
-    /// A body as a scheme has it at a time: a disc of the drawing of its state.
+    /// A body as a scheme has it at a time: a disc, or a corner of a solid, of the drawing of its state.
     struct Grip {
         std::vector<double> x;
-        std::size_t shape = 0;  ///< its place among the shapes
-        Point place{};          ///< in the picture
-        Point offset{};         ///< by which its scheme is moved there
+        HeldPoint held;
+        Point place{};   ///< in the picture
+        Point offset{};  ///< by which its scheme is moved there
     };
     /// The body nearest to a pixel, x right and y up from the middle, and no farther than `reach` from its
-    /// rim; none where there is no body or the bodies of the system cannot be moved.
+    /// rim, of a solid at the corner that is nearest on the face there; none where there is no body or the
+    /// bodies of the system cannot be moved.
     std::optional<Grip> gripAt(double t, const Camera& camera, double x, double y, double reach,
                                const StageTiling& tiling = {}) const;
     const System& system() const { return system_; }

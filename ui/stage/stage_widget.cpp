@@ -161,13 +161,13 @@ struct StageWidget::Impl {
         if (!body) return;
         painter.setFont(theme.caption());
         painter.setPen(theme.muted);
-        painter.drawText(QRectF(0, 0, self->width() - 12, self->height() - 6),
+        // Above the line of the time and the trail.
+        painter.drawText(QRectF(0, 0, self->width() - 12, self->height() - 24),
                          Qt::AlignRight | Qt::AlignBottom,
                          QStringLiteral("drag: start from here   Shift and drag, or throw: velocity"));
         Point place = body->place;
-        if (gripped && ghost && gripped->shape < ghost->shapes.size())
-            if (const auto* disc = std::get_if<Disc>(&ghost->shapes[gripped->shape]))
-                place = inTile(disc->centre);
+        if (gripped && ghost)
+            if (const std::optional<Point> point = gripped->held.in(*ghost)) place = inTile(*point);
         const QPointF at = onWidget(place);
         painter.setPen(QPen(theme.accent, 2));
         painter.setBrush(Qt::NoBrush);
@@ -194,6 +194,13 @@ struct StageWidget::Impl {
                 painter.drawLine(onWidget(inTile(rod->a)), onWidget(inTile(rod->b)));
             if (const auto* spring = std::get_if<Spring>(&shape))
                 painter.drawLine(onWidget(inTile(spring->a)), onWidget(inTile(spring->b)));
+            if (const auto* solid = std::get_if<Solid>(&shape); solid && !solid->isSmooth)
+                for (const std::vector<int>& face : solid->faces) {
+                    QPolygonF outline;
+                    for (const int corner : face)
+                        outline.append(onWidget(inTile(solid->corners[static_cast<std::size_t>(corner)])));
+                    painter.drawPolygon(outline);
+                }
             if (const auto* disc = std::get_if<Disc>(&shape); disc && disc->role == ShapeRole::body) {
                 painter.setBrush(colour);
                 painter.drawEllipse(onWidget(inTile(disc->centre)), disc->radius, disc->radius);

@@ -9,6 +9,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/group/so3.hpp"
+#include "engine/model/body/body_hand.hpp"
 #include "engine/model/casimir_measure.hpp"
 
 namespace extremal {
@@ -196,6 +197,7 @@ void describeBody(System& system, const Body& body) {
     };
     system.frequency = [body](double, const double* x) { return frequency(body, x); };
     system.start = [body](const Settings& initial, double) { return startOf(body, initial); };
+    system.parts.set(bodyByHand(body));
     system.isSpatial = true;
     system.phaseX = "momentum.body.1";
     system.phaseY = "momentum.body.2";

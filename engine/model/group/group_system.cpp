@@ -234,6 +234,7 @@ System systemOf(const Settings& settings) {
                           }});
     describeKept(s, on);
     describePicture(s, on);
+    s.parts.set(byHand(on));
     return s;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/model/group/group_mechanics.hpp"
+#include "engine/model/parts/by_hand.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal::groups {
@@ -19,6 +20,9 @@ std::vector<double> startOf(const GroupMechanics& mechanics, const Settings& ini
 
 /// Throws InvalidScene (pointers below /model) where L is degenerate at the state, with the direction.
 void checkRegular(const GroupMechanics& mechanics, const State& initial);
+
+/// A displacement by hand is one in the algebra, of g exp(hat by), at the same momentum in the body.
+ByHand byHand(const GroupMechanics& mechanics);
 
 /// Rotations of space as bodies side by side, and motions of the plane as a plate; nothing of other groups.
 void describePicture(System& system, const GroupMechanics& mechanics);

@@ -219,6 +219,7 @@ System systemOf(const Settings& settings) {
     s.measures.push_back(distanceFrom(on.names.size()));
     describeKept(s, on);
     describePicture(s, on);
+    s.parts.set(byHand(on));
     return s;
 }
 

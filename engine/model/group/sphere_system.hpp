@@ -8,6 +8,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/model/group/spheres.hpp"
+#include "engine/model/parts/by_hand.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal::spheres {
@@ -27,6 +28,9 @@ std::vector<Problem> startNotesOf(const Spheres& on, const Settings& initial);
 
 /// Throws InvalidScene (pointers below /model) where L is degenerate at the state, with the direction.
 void checkRegular(const Spheres& on, const State& initial);
+
+/// A displacement by hand is the way of each point in space, along its sphere; velocities turn with it.
+ByHand byHand(const Spheres& on);
 
 /// All points on one sphere, or as a chain of links of length 1.
 void describePicture(System& system, const Spheres& on);
