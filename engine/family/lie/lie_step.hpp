@@ -117,13 +117,13 @@ private:
     }
     /// The chart that leads from the start to the base point, beside the others.
     decltype(auto) chartToBase() {
-        const Vector back = -begin_;
+        forXi_ = -begin_;
         if constexpr (isCoupled) {
             auto& at = std::get<3>(charts_);
-            at.place(back);
+            at.place(forXi_);
             return (at);
         } else {
-            return group_.template chart<0>(back);
+            return group_.template chart<0>(forXi_);
         }
     }
     void placeNodes();

@@ -330,7 +330,10 @@ Outcome LieStep<T, G>::advance(Pose& pose, StepReport& report, const std::stop_t
     const Outcome solved = iterate(stop);
     if (solved != Outcome::converged) return solved;
     if (group_.isBeyond(end_) || group_.isBeyond(begin_)) return Outcome::diverged;
-    pose = hasEnd_ ? Pose(group_.place(base_, baseElement_, end_)) : base_;
+    if (hasEnd_)
+        pose = group_.place(base_, baseElement_, end_);
+    else
+        pose = base_;
     group_.carry(base_, baseElement_, W_, pose);
     if constexpr (hasIsotropy)
         if (group_.isOnSpheres()) pose.J = known_.J - inSpace_;
