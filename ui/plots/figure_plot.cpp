@@ -199,7 +199,8 @@ void FigurePlot::prepare(QSize size) {
     const double below = QFontMetricsF(x.tickLabelFont()).height() + titles.height() + 14;
     s.isTitleAbove = titles.horizontalAdvance(title) > size.height() - 10 - below;
     y.setLabel(s.isTitleAbove ? QString() : plainTitle(title));
-    margins.setTop(8 + (s.isTitleAbove ? static_cast<int>(std::ceil(titles.height())) : 0));
+    // The uppermost number stands half above the plot.
+    margins.setTop(8 + (s.isTitleAbove ? static_cast<int>(std::ceil(titles.height())) + 4 : 0));
     // Without labels of ticks the margin is too narrow for what hangs below the line.
     if (s.figure.axes != AxisStyle::scales && !xTitle.isEmpty())
         margins.setBottom(static_cast<int>(std::ceil(titles.height())) + 10);

@@ -390,7 +390,7 @@ void MarksLayer::draw(QCPPainter* painter) {
 void MarksLayer::drawTitleAbove(QCPPainter& painter, const PixelMap& map) const {
     const QCPAxis& axis = *shared_.plot.yAxis;
     const QFontMetricsF metrics(axis.labelFont());
-    const QRectF line(4, map.rect.top() - 6 - metrics.height(), map.rect.right() - 4, metrics.height());
+    const QRectF line(4, map.rect.top() - 10 - metrics.height(), map.rect.right() - 4, metrics.height());
     painter.setFont(axis.labelFont());
     painter.setPen(shared_.theme.text);
     const QString title = QString::fromStdString(shared_.figure.y.title), plain = plainTitle(title);

@@ -67,10 +67,9 @@ std::optional<Point> HeldPoint::in(const Drawing& drawing) const {
 
 bool hasMovableBodies(const System& system) {
     constexpr int most = 60;  // displacements, each of which is tried
-    if (!system.draw) return false;
-    if (system.parts.find<Mechanical>()) return true;  // of a velocity given by hand
+    const Mechanical* const lagrangian = system.parts.find<Mechanical>();  // of a velocity given by hand
     const ByHand* const hand = system.parts.find<ByHand>();
-    return hand && hand->freedoms <= most;
+    return system.draw && (lagrangian || (hand && hand->freedoms <= most));
 }
 
 BodyDrag::BodyDrag(std::shared_ptr<const System> system, State state, HeldPoint held)

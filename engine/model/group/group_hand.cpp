@@ -109,7 +109,9 @@ void moveOnSphere(const double* by, double* x, double* pi) {
 
 }  // namespace
 
-ByHand groups::byHand(const GroupMechanics& on) {
+namespace groups {
+
+ByHand byHand(const GroupMechanics& on) {
     ByHand hand;
     hand.freedoms = on.dimension();
     hand.move = [on](double* x, const double* by) {
@@ -137,7 +139,11 @@ ByHand groups::byHand(const GroupMechanics& on) {
     return hand;
 }
 
-ByHand spheres::byHand(const Spheres& on) {
+}  // namespace groups
+
+namespace spheres {
+
+ByHand byHand(const Spheres& on) {
     ByHand hand;
     const int d = on.mechanics->dimension();
     hand.freedoms = d;
@@ -167,4 +173,5 @@ ByHand spheres::byHand(const Spheres& on) {
     return hand;
 }
 
+}  // namespace spheres
 }  // namespace extremal
