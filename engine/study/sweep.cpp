@@ -350,6 +350,11 @@ std::string Sweep::unjudged(double wish) const {
         std::any_of(metrics_.begin(), metrics_.end(), [](const Metric& m) { return m.needsReference(); }) &&
         reference_.type == "none" && !reference_.problems.empty();
     if (isMissing) return "there is no reference: " + reference_.problems.front().message;
+    const bool isLost = !confirmation_ && reference_.estimatedError > std::max(wish, metricSize_);
+    if (isLost)
+        return "an error of " + formatNumber(wish, 2) +
+               " cannot be judged: the reference may itself be off by " +
+               formatNumber(reference_.estimatedError, 2) + ", as the motion forgets its start";
     if (cases_.empty()) return unjudgedIn(scene_, confirmation_, wish);
     for (const SearchCase& each : cases_)
         if (std::string why = unjudgedIn(*each.scene, each.confirmation, wish); !why.empty()) return why;

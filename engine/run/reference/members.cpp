@@ -269,15 +269,17 @@ void confirmReference(Reference& reference, const ResolvedScene& scene, const st
     Members members(scene, stop);
     const std::optional<Member> b = members.controlled({"rk8pd", "fehlberg78"}, pulses.ends);
     if (stop.stop_requested()) return;
+    reference.info.pulses = pulses.pulses;
+    if (!b) return;  // there is nothing to confirm it
     Member a{isMissing ? "" : reference.info.description, reference.make, {}, 0};
     if (!isMissing) members.follow(a);
     std::vector<const Member*> all;
     if (!isMissing) all.push_back(&a);
-    if (b) all.push_back(&*b);
+    all.push_back(&*b);
     std::optional<Pair> best = nearestOf(members, all, isGiven);
     // Most of the distance is the error of B where that is not round-off yet.
     std::optional<Member> finer;
-    if (best && b && !isMissing && Confirmation::safety * best->distance.end() > coarse * members.size() &&
+    if (best && !isMissing && Confirmation::safety * best->distance.end() > coarse * members.size() &&
         !stop.stop_requested()) {
         finer = members.controlled({b->name.c_str()}, pulses.ends, finest);
         const bool isThere =
@@ -289,13 +291,12 @@ void confirmReference(Reference& reference, const ResolvedScene& scene, const st
     }
     std::optional<Member> c;
     const bool isDoubtful = !best || Confirmation::safety * best->distance.end() > doubtful * members.size();
-    if (b && isDoubtful && !stop.stop_requested()) {
+    if (isDoubtful && !stop.stop_requested()) {
         c = members.controlled({"bulirsch-stoer"}, pulses.ends);
         if (c) all.push_back(&*c);
         best = nearestOf(members, all, isGiven);
     }
     if (stop.stop_requested()) return;
-    reference.info.pulses = pulses.pulses;
     if (!best || !std::isfinite(best->distance.upTo.front())) return;
     if (best->chosen != &a) {
         reference.make = best->chosen->make;

@@ -41,6 +41,7 @@ SearchReference::SearchReference(const ResolvedScene& scene, const std::vector<M
     if (highestFrequency(*scene.system, scene.initial) * length > 2 * std::numbers::pi * mostPeriods) return;
     const double known = reference_.info.estimatedError, size = largestEntry(scene.initial),
                  least = roundOff * size;
+    if (known > size) return;  // nothing is judged by it
     table_ = TabulatedSolution::of(reference_.make(), scene.scene.start.value, scene.scene.end.value,
                                    scene.initial.x.size(), comparedEntries(scene, metrics),
                                    known > 0 ? std::clamp(part * known, least, most * size) : least, stop);

@@ -287,6 +287,28 @@ private slots:
             QCOMPARE(search.rows().front().result.floorOf, "reference");
         }
     }
+    /// Where nothing confirms the reference of a chaotic motion, as that would take too long, and its own
+    /// steps in halves part.
+    void aReferenceThatIsLostJudgesNothing() {
+        for (const bool isShort : {true, false}) {
+            Scene scene = presetOf("driven-pendulum").scene;
+            if (isShort) scene.end = {20, {}};
+            SweepOptions options;
+            options.wantedError = 1e-4;
+            options.repeat = 0;
+            options.only = {scene.schemes.front().label};
+            Sweep search(resolve(scene), options);
+            search.run({}, {}, {});
+            const SweepRow& row = search.rows().front();
+            if (isShort) {
+                QVERIFY(search.unjudged(1e-4).empty() && row.result.isDone());
+            } else {
+                QVERIFY(!search.confirmation());
+                QVERIFY(row.result.reason.find("cannot be judged") != std::string::npos);
+                QCOMPARE(row.result.reason, search.unjudged(1e-4));
+            }
+        }
+    }
     void whatIsTooRichIsReduced() {
         // Six nodes for degree 2, for three digits.
         const ReadScene read = readScene(std::string(
