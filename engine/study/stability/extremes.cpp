@@ -14,6 +14,7 @@
 #include "engine/scene/read/overrides.hpp"
 #include "engine/scene/single_scheme.hpp"
 #include "engine/scene/write/codec.hpp"
+#include "engine/study/expected_time.hpp"
 #include "engine/study/search/point.hpp"
 #include "engine/study/stability/judged_wishes.hpp"
 
@@ -193,13 +194,21 @@ double secondsOfJudging(const ExtremeCase& extreme, const std::stop_token& stop)
     if (axis.pointer.empty()) return 0;
     const ReadScene read = readScene(extreme.text());
     if (!read.resolved) return 0;
+    const ResolvedScene& scene = *read.resolved;
     const double begin = threadSeconds();
     try {
-        (void)judgedOn(*read.resolved, axis, stop);
+        const JudgedWishes judged = judgedOn(scene, axis, stop);
+        const double made = threadSeconds() - begin;
+        const ResolvedScheme& scheme = scene.schemes.front();
+        const ExactSolution solution = judged.reference.of(scheme);
+        if (!solution) return made;
+        const double start = scene.initial.t, end = scene.scene.end.value, step = scheme.spec.step.value;
+        constexpr double usualSteps = 256;  // of a scheme that chooses them
+        return made + secondsOfSolution(solution, initialOf(scene, scheme).x.size(), start, end,
+                                        step > 0 ? step : (end - start) / usualSteps, stop);
     } catch (const InvalidScene&) {
         return 0;
     }
-    return threadSeconds() - begin;
 }
 
 }  // namespace extremal

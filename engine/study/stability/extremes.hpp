@@ -71,8 +71,8 @@ struct ExtremeResult {
     double floor = measure;  ///< of the measure: below it the reference tells nothing
 };
 ExtremeResult runExtreme(const ExtremeCase& extreme, const std::stop_token& stop);
-/// CPU seconds that the reference of a case of a scene takes, by computing it; 0 of the other axes, whose
-/// references are known.
+/// CPU seconds that the reference of a case of a scene takes, by computing it and by the first places at
+/// which a run is compared with it; 0 of the other axes, whose references are known.
 double secondsOfJudging(const ExtremeCase& extreme, const std::stop_token& stop);
 
 }  // namespace extremal
