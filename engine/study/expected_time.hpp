@@ -15,8 +15,9 @@ namespace extremal {
 /// CPU seconds of a scene of one scheme: what reading it takes, and a run, where it is not refused.
 double secondsOfScene(const std::function<ReadScene()>& read, const std::stop_token& stop);
 
-/// CPU seconds that a solution takes at times `every` apart from `start` to `end`, as the first of them tell
-/// it: one that is stepped along may take more than the run that it is compared with. `width`: of its states.
+/// CPU seconds that a solution takes at times `every` apart from `start` to `end` (0: those of a scheme that
+/// chooses its steps), as the first of them tell it: one that is stepped along may take more than the run
+/// that it is compared with. `width`: of its states.
 double secondsOfSolution(const ExactSolution& solution, std::size_t width, double start, double end,
                          double every, const std::stop_token& stop);
 

@@ -224,15 +224,13 @@ void Sweep::runPoints(const std::vector<std::size_t>& wanted,
 /// step, which asks for the most of it, else beside every run.
 double Sweep::secondsAhead(const std::vector<std::size_t>& wanted, const PointReference& referenceOf,
                            bool isShared, const std::stop_token& stop) const {
-    constexpr double usualSteps = 256;  // of a scheme that chooses them
     const double start = scene_.initial.t, length = timeSpan(scene_.scene).length();
     const auto secondsOfReference = [&](const StudyPoint& point) {
         try {
             const ExactSolution solution = referenceOf(point);
             if (!solution) return 0.0;
             const std::size_t width = initialOf(scene_, schemeOf(scene_, point)).x.size();
-            const double every = point.step > 0 ? point.step : length / usualSteps;
-            return secondsOfSolution(solution, width, start, start + length, every, stop);
+            return secondsOfSolution(solution, width, start, start + length, point.step, stop);
         } catch (const InvalidScene&) {
             return 0.0;  // there is no such mesh
         }

@@ -202,10 +202,8 @@ double secondsOfJudging(const ExtremeCase& extreme, const std::stop_token& stop)
         const ResolvedScheme& scheme = scene.schemes.front();
         const ExactSolution solution = judged.reference.of(scheme);
         if (!solution) return made;
-        const double start = scene.initial.t, end = scene.scene.end.value, step = scheme.spec.step.value;
-        constexpr double usualSteps = 256;  // of a scheme that chooses them
-        return made + secondsOfSolution(solution, initialOf(scene, scheme).x.size(), start, end,
-                                        step > 0 ? step : (end - start) / usualSteps, stop);
+        return made + secondsOfSolution(solution, initialOf(scene, scheme).x.size(), scene.initial.t,
+                                        scene.scene.end.value, scheme.spec.step.value, stop);
     } catch (const InvalidScene&) {
         return 0;
     }
