@@ -27,23 +27,15 @@ using namespace std::chrono_literals;
 constexpr auto previewTime = 40ms;
 constexpr double secondsOfWholeRun = 12;  ///< that playing it takes
 
-/// Five digits of the largest of them: more than a mouse can set.
-double roundedTo(double value, double largest) {
-    if (!(largest > 0)) return value;
-    const double unit = std::pow(10, std::floor(std::log10(largest)) - 4);
-    const double rounded =
-        unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit;
-    return std::isfinite(rounded) ? rounded : value;
-}
-
 Value numbersFrom(const double* x, std::size_t count, const Value* before, const std::vector<Number>* known) {
+    constexpr int digits = 5;  // more than a mouse can set
     double largest = 0;
     for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, std::abs(x[i]));
     Value::Array numbers;
     for (std::size_t i = 0; i < count; ++i) {
         const bool isWritten = before && before->isArray() && i < before->asArray().size() && known &&
                                i < known->size() && std::abs((*known)[i].value - x[i]) <= 1e-9 * largest;
-        numbers.push_back(isWritten ? before->asArray()[i] : Value(roundedTo(x[i], largest)));
+        numbers.push_back(isWritten ? before->asArray()[i] : Value(handNumber(x[i], largest, digits)));
     }
     return Value(std::move(numbers));
 }
@@ -114,15 +106,11 @@ std::vector<Edit> editsForState(const Value& document, const Scene& scene, const
         return {{"/initial", hand->written(std::move(initial), state.x.data(), keepsMotion)}};
     const Value before = initial.find("q") ? *initial.find("q") : Value();
     initial.set("q", numbersFrom(state.x.data(), d, &before, &scene.initial.q));
-    const auto drop = [&](std::initializer_list<const char*> keys) {
-        for (const char* key : keys)
-            std::erase_if(initial.asObject(), [&](const Value::Member& m) { return m.first == key; });
-    };
     if (!velocity.empty()) {
-        drop({"p", "q1", "at"});
+        dropKeys(initial, {"p", "q1", "at"});
         initial.set("v", numbersFrom(velocity.data(), d, nullptr, nullptr));
     } else if (!keepsMotion || initial.find("q1")) {
-        drop({"v", "q1", "at"});
+        dropKeys(initial, {"v", "q1", "at"});
         initial.set("p", numbersFrom(state.x.data() + d, d, nullptr, nullptr));
     }
     // Of rounded numbers places miss the constraints by more than rounding.

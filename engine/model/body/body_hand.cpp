@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <initializer_list>
 #include <utility>
 
 #include "engine/group/so3.hpp"
@@ -21,21 +20,11 @@ void putBodyMomentum(const Vector& inBody, double* x) {
     std::copy_n(inSpace.data(), 3, x + 7);
 }
 
-Value handNumbers(const double* x, std::size_t count) {
-    Value::Array list;
-    for (std::size_t i = 0; i < count; ++i) list.emplace_back(handNumber(x[i]));
-    return list;
-}
-
 Value bodyWritten(Value initial, const double* x, bool keepsMotion, bool isInSpace) {
-    const auto drop = [&](std::initializer_list<const char*> keys) {
-        for (const char* const key : keys)
-            std::erase_if(initial.asObject(), [&](const Value::Member& m) { return m.first == key; });
-    };
     initial.set("attitude", handNumbers(x, 4));
     if (isInSpace) initial.set("position", handNumbers(x + 10, 3));
     if (keepsMotion) return initial;
-    drop({"omega", "velocity"});
+    dropKeys(initial, {"omega", "velocity"});
     initial.set("momentum", handNumbers(x + 4, 3));
     if (isInSpace) initial.set("linear_momentum", handNumbers(x + 13, 3));
     return initial;

@@ -15,10 +15,6 @@ namespace {
 using Vector = MatrixGroup::Vector;
 using Entries = MatrixGroup::Entries;
 
-void drop(Value& initial, const std::string& key) {
-    std::erase_if(initial.asObject(), [&](const Value::Member& m) { return m.first == key; });
-}
-
 /// g, then the momentum in the body, then J.
 void put(const GroupMechanics& on, const Entries& g, const Vector& mu, double* x) {
     const Vector J = on.group->inSpace(g, mu);
@@ -29,12 +25,9 @@ void put(const GroupMechanics& on, const Entries& g, const Vector& mu, double* x
 
 /// As {"exp": [..]} where the logarithm is found, else as rows.
 Value elementOf(const MatrixGroup::Factor& factor, const MatrixGroup::View& g, const double* xi) {
-    Value::Array way;
+    const Value way = handNumbers(xi, static_cast<std::size_t>(factor.d));
     GroupFactor::Vector rounded(factor.d);
-    for (int k = 0; k < factor.d; ++k) {
-        rounded(k) = handNumber(xi[k]);
-        way.emplace_back(rounded(k));
-    }
+    for (int k = 0; k < factor.d; ++k) rounded(k) = way.asArray()[static_cast<std::size_t>(k)].asNumber();
     constexpr double near = 1e-6;
     if (rounded.allFinite() && (factor.exponential(rounded) - g).cwiseAbs().maxCoeff() < near)
         return Value::Object{{"exp", way}};
@@ -58,10 +51,8 @@ Value groupWritten(const GroupMechanics& on, Value initial, const double* x, boo
     initial.set("g", isProduct ? Value(byFactor) : byFactor.front().second);
     const bool hasMomentum = initial.find("mu") || (initial.find("xi") && on.hasConstantMasses);
     if (keepsMotion && hasMomentum) return initial;
-    drop(initial, "xi");
-    Value::Array momenta;
-    for (int k = 0; k < on.dimension(); ++k) momenta.emplace_back(handNumber(x[group.entries() + k]));
-    initial.set("mu", momenta);
+    dropKeys(initial, {"xi"});
+    initial.set("mu", handNumbers(x + group.entries(), static_cast<std::size_t>(on.dimension())));
     return initial;
 }
 

@@ -6,8 +6,10 @@
 /// algebra, ways. What makes them so that a body follows the pointer is the stage's.
 #pragma once
 
-#include <cmath>
+#include <cstddef>
 #include <functional>
+#include <initializer_list>
+#include <string_view>
 
 #include "engine/core/value.hpp"
 #include "engine/model/parts.hpp"
@@ -29,10 +31,12 @@ struct ByHand {
     std::function<Value(Value initial, const double* x, bool keepsMotion)> written;
 };
 
-/// A number that is set by hand, to a digit of which there are `perUnit` in 1.
-inline double handNumber(double value, double perUnit = 1e8) {
-    const double rounded = std::round(value * perUnit) / perUnit;
-    return std::isfinite(rounded) ? rounded + 0.0 : value;  // no -0
-}
+/// Numbers that are set by hand, of which so many digits of the largest are kept.
+Value handNumbers(const double* x, std::size_t count, int digits = 9);
+/// One of them, where the largest is that.
+double handNumber(double value, double largest, int digits);
+
+/// Takes keys away from an object.
+void dropKeys(Value& object, std::initializer_list<std::string_view> keys);
 
 }  // namespace extremal

@@ -186,6 +186,14 @@ private slots:
             }
         }
     }
+    /// Bodies of any size: digits are those of the largest number.
+    void smallMomentaAreWritten() {
+        const double small[] = {3.123456789012e-11, -2e-12, 0};
+        const Value written = handNumbers(small, 3);
+        for (std::size_t i = 0; i < 3; ++i)
+            QVERIFY(std::abs(written.asArray()[i].asNumber() - small[i]) < 1e-8 * small[0]);
+        QVERIFY(!std::signbit(handNumbers(small + 2, 1).asArray()[0].asNumber()));
+    }
     void wavesAreNotTaken() {
         QVERIFY(hasMovableBodies(*Held("kepler").scene->system));
         QVERIFY(!hasMovableBodies(*readScene(loadSceneText("preset:wave")).resolved->system));
