@@ -101,13 +101,16 @@ private:
     Outcome choose(const State& state, double& energy) {
         const double last = state.memory[lastStep];
         if (state.node == 0 && isUndetermined(last)) return Outcome::refused;
-        if (refine(energy, last, state.memory[growth]) || search(energy, last)) return Outcome::converged;
+        Nearest nearest;
+        if (refine(energy, last, state.memory[growth]) || search(energy, last, nearest))
+            return Outcome::converged;
         if (stop().stop_requested()) return Outcome::stopped;
         ++report_.cost.rejected;
         if (options_.policy == UnsolvablePolicy::stop) return Outcome::energyUnsolvable;
         report_.event = StepEvent::energyUnsolvable;
         const double first = std::copysign(options_.first, last),
-                     h = options_.policy == UnsolvablePolicy::minimise ? bestStep(energy, last) : first;
+                     h = options_.policy == UnsolvablePolicy::minimise ? bestStep(energy, last, nearest)
+                                                                       : first;
         const Outcome outcome = element_.solve(start_, h, stop(), report_);
         if (outcome == Outcome::converged && options_.policy == UnsolvablePolicy::reset)
             energy = element_.discreteEnergy();
@@ -161,23 +164,37 @@ private:
         return std::abs(excess(best, energy)) <= noise * tolerance(energy);
     }
 
+    /// Of the lengths on a grid the one with the smallest |E_d - E|; that of its neighbours is `ratio` times
+    /// as long or short at most.
+    struct Nearest {
+        double h = 0, distance = std::numeric_limits<double>::infinity(), ratio = 1;
+    };
+
     /// Sign changes on a grid of the window, the one nearest to the last step first.
-    bool search(double energy, double last) {
+    bool search(double energy, double last, Nearest& nearest) {
         constexpr int perSide = 8;
         const auto [low, high] = window(last);
         const double middle = std::clamp(std::abs(last), low, high);
         struct Side {
-            double ratio, h, F;
+            double end, ratio, h, F;
         };
         const double atMiddle = excess(std::copysign(middle, last), energy);
-        std::array<Side, 2> sides = {{{std::pow(high / middle, 1.0 / perSide), middle, atMiddle},
-                                      {std::pow(low / middle, 1.0 / perSide), middle, atMiddle}}};
+        std::array<Side, 2> sides = {{{high, std::pow(high / middle, 1.0 / perSide), middle, atMiddle},
+                                      {low, std::pow(low / middle, 1.0 / perSide), middle, atMiddle}}};
+        const auto note = [&](double h, double F) {
+            if (std::abs(F) < nearest.distance) nearest = {h, std::abs(F), nearest.ratio};
+        };
+        nearest.h = middle;  // where no step has a solution
+        nearest.ratio = std::max(sides[0].ratio, 1 / sides[1].ratio);
+        note(middle, atMiddle);
         for (int j = 1; j <= perSide; ++j)
             for (Side& side : sides) {
                 if (side.ratio == 1) continue;
-                const double h = side.h * side.ratio, F = excess(std::copysign(h, last), energy);
+                const double h = j < perSide ? side.h * side.ratio : side.end,
+                             F = excess(std::copysign(h, last), energy);
                 if (stop().stop_requested()) return false;
                 if (side.F * F <= 0 && isolate(energy, last, side.h, h, side.F, F)) return true;
+                note(h, F);
                 side.h = h;
                 side.F = F;
             }
@@ -203,27 +220,25 @@ private:
         return std::abs(F) < std::max(std::abs(Fa), std::abs(Fb));
     }
 
-    /// The length in the window with the smallest (E_d - E)^2.
-    double bestStep(double energy, double last) {
-        constexpr int points = 16, bits = 20;
+    /// The step in the window with the smallest (E_d - E)^2, from the grid of the search.
+    double bestStep(double energy, double last, const Nearest& nearest) {
+        constexpr int bits = 20;
         const auto [low, high] = window(last);
-        const double ratio = std::pow(high / low, 1.0 / points);
+        const auto signedExcess = [&](double h) { return excess(std::copysign(h, last), energy); };
+        if (nearest.h == low || nearest.h == high) {
+            const double F = signedExcess(nearest.h), inward = nearest.h == low ? 1 : -1;
+            if (low == high || F * std::copysign(inward, last) * element_.energyByStep() > 0)
+                return std::copysign(nearest.h, last);
+        }
         const auto square = [&](double h) {
-            const double F = excess(std::copysign(h, last), energy);
+            const double F = signedExcess(h);
             return std::isnan(F) ? std::numeric_limits<double>::infinity() : F * F;
         };
-        double best = low, least = square(low);
-        for (int j = 1; j <= points; ++j) {
-            const double h = low * std::pow(ratio, j), value = square(h);
-            if (value < least) {
-                best = h;
-                least = value;
-            }
-        }
         std::uintmax_t evaluations = 50;
         const auto [h, value] = boost::math::tools::brent_find_minima(
-            square, std::max(low, best / ratio), std::min(high, best * ratio), bits, evaluations);
-        return std::copysign(value < least ? h : best, last);
+            square, std::max(low, nearest.h / nearest.ratio), std::min(high, nearest.h * nearest.ratio), bits,
+            evaluations);
+        return std::copysign(value < nearest.distance * nearest.distance ? h : nearest.h, last);
     }
 
     void finish(State& state, double energy) {
