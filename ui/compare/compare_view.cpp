@@ -366,8 +366,8 @@ void CompareView::refresh() {
     if (!system_ || results->system != system_) {
         system_ =
             results->system ? results->system : std::make_shared<const System>(makeSystem(results->scene));
-        if (const bool draws = system_->independent == "t";
-            draws != hasStage_) {  // nothing moves along a place
+        // Nothing moves along a place.
+        if (const bool draws = system_->independent == "t" && system_->draw; draws != hasStage_) {
             hasStage_ = draws;
             arrange();
         }

@@ -32,24 +32,77 @@ std::vector<double> inertiaOf(const GroupMechanics& on) {
     return diagonal;
 }
 
-struct DrawnBody {
-    int entry = 0;
+/// How a factor of the group is shown.
+enum class Look {
+    body,      ///< rotations: a solid
+    unitBody,  ///< SU(2): the solid that it turns
+    image,     ///< matrices of two rows: what they make of the unit circle
+    frame      ///< others: their columns, as arrows, by the first three entries
+};
+
+struct Drawn {
+    Look look = Look::frame;
+    int entry = 0, n = 0;
     std::array<double, 3> centre{};
     BodyShape shape;
 };
 
-void drawBodies(const std::vector<DrawnBody>& bodies, const double* x, Drawing& drawing) {
+/// w, x, y, z of g = w - i (x sigma_1 + y sigma_2 + z sigma_3), which is stored as (re -im; im re).
+so3::Quaternion<double> unitQuaternion(const double* g) {
+    return so3::Quaternion<double>(g[0], -g[9], g[4], -g[8]);
+}
+
+void drawSolidOf(const Drawn& drawn, const double* x, Drawing& drawing) {
     using Square = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
-    const DrawnBody& last = bodies.back();
-    const Square tip(x + last.entry);
-    drawing.tracer = onStage(last.centre[0] + 1.5 * tip(0, 2), 1.5 * tip(1, 2), 1.5 * tip(2, 2));
+    const double* const g = x + drawn.entry;
+    const so3::Quaternion<double> q =
+        drawn.look == Look::body ? so3::quaternion(so3::Matrix<double>(Square(g))) : unitQuaternion(g);
+    const so3::Matrix<double> R = so3::matrix(q);
+    drawing.tracer = onStage(drawn.centre[0] + 1.5 * R(0, 2), 1.5 * R(1, 2), 1.5 * R(2, 2));
+    if (!drawing.isTracerOnly) drawBody(drawn.shape, drawn.centre, q.data(), drawing);
+}
+
+void drawArrows(const Drawn& drawn, bool isSpatial, const double* x, Drawing& drawing) {
+    const auto at = [&](const std::array<double, 3>& p) {
+        return isSpatial ? onStage(drawn.centre[0] + p[0], p[1], p[2])
+                         : Point{drawn.centre[0] + p[0], p[1], 0};
+    };
+    const double* const g = x + drawn.entry;
+    const auto column = [&](int j) {
+        std::array<double, 3> c{};
+        for (int i = 0; i < std::min(drawn.n, 3); ++i) c[static_cast<std::size_t>(i)] = g[drawn.n * i + j];
+        return at(c);
+    };
+    drawing.tracer = column(0);
     if (drawing.isTracerOnly) return;
-    drawSpaceAxes(1.9, drawing);
-    for (const DrawnBody& body : bodies) {
-        const so3::Quaternion<double> q = so3::quaternion(so3::Matrix<double>(Square(x + body.entry)));
-        drawBody(body.shape, body.centre, q.data(), drawing);
+    for (int j = 0; j < drawn.n; ++j) {
+        drawing.shapes.push_back(Segment{at({}), column(j), 1.5});
+        if (j > 0) drawing.shapes.push_back(Disc{column(j), 3});
     }
-    drawing.shapes.push_back(Disc{drawing.tracer, 4});
+    if (drawn.look != Look::image) return;
+    for (const bool isMoved : {false, true}) {
+        Curve circle{{}, 2, 1, isMoved ? ShapeRole::body : ShapeRole::scenery};
+        for (int k = 0; k <= 64; ++k) {
+            const double c = std::cos(k * std::numbers::pi / 32), s = std::sin(k * std::numbers::pi / 32);
+            circle.points.push_back(isMoved ? at({g[0] * c + g[1] * s, g[2] * c + g[3] * s, 0})
+                                            : at({c, s, 0}));
+        }
+        drawing.shapes.push_back(std::move(circle));
+    }
+}
+
+/// In a row; the last one that turns leaves the trail.
+void drawFactors(const std::vector<Drawn>& row, bool isSpatial, const double* x, Drawing& drawing) {
+    if (isSpatial && !drawing.isTracerOnly) drawSpaceAxes(1.9, drawing);
+    for (const bool isSolid : {false, true})
+        for (const Drawn& drawn : row)
+            if ((drawn.look == Look::body || drawn.look == Look::unitBody) != isSolid)
+                continue;
+            else if (isSolid)
+                drawSolidOf(drawn, x, drawing);
+            else
+                drawArrows(drawn, isSpatial, x, drawing);
+    if (!drawing.isTracerOnly) drawing.shapes.push_back(Disc{drawing.tracer, 4});
 }
 
 /// A plate at (g13, g23), turned by the upper left block.
@@ -96,50 +149,59 @@ void drawSection(int entry, const double* x, Drawing& drawing) {
     drawing.shapes.push_back(Disc{drawing.tracer, 4});
 }
 
-/// Whether a group is a single factor in the basis of a named one.
-bool isOnly(const std::vector<Factor>& factors, const char* name) {
+/// Whether a factor has the basis of a named group.
+bool isNamed(const Factor& factor, const char* name) {
     const std::vector<MatrixGroup::Square> basis = basisOf(name);
-    return factors.size() == 1 && factors[0].basis.size() == basis.size() &&
-           factors[0].n == basis[0].rows() &&
-           std::equal(basis.begin(), basis.end(), factors[0].basis.begin(),
+    return factor.basis.size() == basis.size() && factor.n == basis[0].rows() &&
+           std::equal(basis.begin(), basis.end(), factor.basis.begin(),
                       [](const auto& a, const auto& b) { return a == b; });
 }
 
 }  // namespace
 
 void describePicture(System& system, const GroupMechanics& on) {
-    const std::vector<double> inertia = inertiaOf(on);
-    std::vector<DrawnBody> bodies;
     const auto& factors = on.group->factors();
-    const auto count = static_cast<double>(factors.size());
-    for (std::size_t k = 0; k < factors.size(); ++k) {
-        const Factor& f = factors[k];
-        if (f.n != 3 || !on.invariants->isOrthogonal(k)) continue;
-        BodyMechanics<double> body;
-        body.dimension = 3;
-        std::copy_n(inertia.begin() + f.coordinate, 3, body.inertia.begin());
-        const double middle = apart * (static_cast<double>(k) - (count - 1) / 2);
-        bodies.push_back({f.entry, {middle, 0, 0}, shapeOf(body, Settings{"", {{"shape", "box"}}, {}})});
-    }
-    if (!bodies.empty()) {
-        system.isSpatial = true;
-        system.draw = [bodies](const double* x, Drawing& drawing) { drawBodies(bodies, x, drawing); };
-        return;
-    }
-    if (isOnly(factors, "se3")) {
+    if (factors.size() == 1 && isNamed(factors[0], "se3")) {
         system.isSpatial = true;
         system.draw = [entry = factors[0].entry](const double* x, Drawing& drawing) {
             drawSection(entry, x, drawing);
         };
         return;
     }
-    if (!isOnly(factors, "se2")) return;
-    system.draw = [entry = factors[0].entry](const double* x, Drawing& drawing) {
-        drawPlate(entry, x, drawing);
+    if (factors.size() == 1 && isNamed(factors[0], "se2")) {
+        system.draw = [entry = factors[0].entry](const double* x, Drawing& drawing) {
+            drawPlate(entry, x, drawing);
+        };
+        system.hasPlanarTrajectory = true;
+        system.trajectoryX = "g.13";
+        system.trajectoryY = "g.23";
+        return;
+    }
+    const std::vector<double> inertia = inertiaOf(on);
+    std::vector<Drawn> row;
+    const auto count = static_cast<double>(factors.size());
+    bool isSpatial = false;
+    for (std::size_t k = 0; k < factors.size(); ++k) {
+        const Factor& f = factors[k];
+        Drawn drawn{
+            Look::frame, f.entry, f.n, {apart * (static_cast<double>(k) - (count - 1) / 2), 0, 0}, {}};
+        if (f.n == 2) drawn.look = Look::image;
+        if (f.n == 3 && on.invariants->isOrthogonal(k)) drawn.look = Look::body;
+        if (isNamed(f, "su2")) drawn.look = Look::unitBody;
+        if (drawn.look == Look::body || drawn.look == Look::unitBody) {
+            BodyMechanics<double> body;
+            body.dimension = 3;
+            body.inertia.fill(1);
+            std::copy_n(inertia.begin() + f.coordinate, std::min(f.d, 3), body.inertia.begin());
+            drawn.shape = shapeOf(body, Settings{"", {{"shape", "box"}}, {}});
+        }
+        isSpatial = isSpatial || drawn.look != Look::image;
+        row.push_back(drawn);
+    }
+    system.isSpatial = isSpatial;
+    system.draw = [row, isSpatial](const double* x, Drawing& drawing) {
+        drawFactors(row, isSpatial, x, drawing);
     };
-    system.hasPlanarTrajectory = true;
-    system.trajectoryX = "g.13";
-    system.trajectoryY = "g.23";
 }
 
 }  // namespace extremal::groups

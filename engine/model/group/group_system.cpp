@@ -36,7 +36,7 @@ std::vector<Quantity> columnsOf(const MatrixGroup& group) {
         for (int i = 0; i < f.n; ++i)
             for (int j = 0; j < f.n; ++j) {
                 const std::string at = std::to_string(i + 1) + (f.n > 9 ? "." : "") + std::to_string(j + 1);
-                columns.push_back({inFront(f) + "g." + at, titled(f, "entry " + at), "g_" + at, ""});
+                columns.push_back({inFront(f) + "g." + at, titled(f, "entry " + at), titled(f, "g_" + at), ""});
             }
     for (const auto& [name, title, symbol] :
          {std::tuple{"mu.", "body momentum ", "μ_"}, {"momentum.space.", "space momentum ", "J_"}})
@@ -45,7 +45,7 @@ std::vector<Quantity> columnsOf(const MatrixGroup& group) {
                 const std::string at = std::to_string(a + 1);
                 const bool isSpace = std::string(name).starts_with("momentum");
                 columns.push_back({isSpace ? name + inFront(f) + at : inFront(f) + name + at,
-                                   titled(f, title + at), symbol + at, ""});
+                                   titled(f, title + at), titled(f, symbol + at), ""});
             }
     return columns;
 }
