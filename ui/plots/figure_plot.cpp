@@ -80,10 +80,12 @@ void makeRoomForMarks(FigurePlot::Shared& s, int height) {
 void layOut(FigurePlot::Shared& s, double width, double height) {
     const auto prepareAxis = [&](QCPAxis& axis, const Axis& of, PlotRange range, double length) {
         axis.setRange(range.low, range.high);
-        const int room = roomFor(length, axis.orientation() == Qt::Vertical, of.isLog);
+        const bool isVertical = axis.orientation() == Qt::Vertical;
+        const int room = roomFor(length, isVertical, of.isLog);
         constexpr double roomOfName = 22;
         if (of.ticks.empty())
-            axis.setTicker(of.isLog ? logTicker(room) : linearTicker(room));
+            axis.setTicker(of.isLog ? logTicker(room)
+                                    : linearTicker(room, {isVertical ? 0 : length, axis.tickLabelFont()}));
         else
             axis.setTicker(namedTicker(of.ticks, roomOfName * (axis.range().size() / std::max(1.0, length))));
         axis.grid()->setVisible(s.figure.axes == AxisStyle::scales && of.ticks.empty());

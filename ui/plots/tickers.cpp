@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/plots/tickers.hpp"
 
+#include <QFontMetricsF>
+
 #include <qcustomplot.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace extremal {
 
@@ -52,7 +55,14 @@ constexpr int leastTicks = 3;
 
 class LinearTicker : public QCPAxisTicker {
 public:
-    explicit LinearTicker(int room) : room_(std::max(1, room)) {}
+    explicit LinearTicker(int room, LabelRoom labels = {})
+        : room_(std::max(1, room)), labelRoom_(std::move(labels)) {}
+
+    void generate(const QCPRange& range, const QLocale& locale, QChar format, int precision,
+                  QVector<double>& ticks, QVector<double>* subTicks, QVector<QString>* labels) override {
+        QCPAxisTicker::generate(range, locale, format, precision, ticks, subTicks, labels);
+        if (labels && labelRoom_.length > 0) thinOut(range, ticks, *labels);
+    }
 
 protected:
     /// The smallest of 1, 2, 2.5, 5 times a power of ten that gives no more ticks than there is room for; a
@@ -79,12 +89,23 @@ protected:
 
 private:
     static constexpr double slack = 1e-9;
+    /// Long numbers on a short axis: only those ticks have one at which they do not touch.
+    void thinOut(const QCPRange& range, const QVector<double>& ticks, QVector<QString>& labels) const {
+        constexpr double gap = 6;  // pixels
+        const QFontMetricsF metrics(labelRoom_.font);
+        double widest = 0;
+        for (const QString& label : labels) widest = std::max(widest, metrics.horizontalAdvance(label));
+        const double every = std::ceil((widest + gap) * range.size() / (labelRoom_.length * step_));
+        for (qsizetype i = 0; i < labels.size(); ++i)
+            if (std::abs(std::remainder(std::round(ticks[i] / step_), every)) > 0.5) labels[i].clear();
+    }
     static int ticksIn(const QCPRange& range, double step) {
         return static_cast<int>(std::floor(range.upper / step + slack) -
                                 std::ceil(range.lower / step - slack)) +
                1;
     }
     int room_;
+    LabelRoom labelRoom_;
     double step_ = 1;
 };
 
@@ -175,8 +196,8 @@ private:
 
 }  // namespace
 
-QSharedPointer<QCPAxisTicker> linearTicker(int room) {
-    return QSharedPointer<QCPAxisTicker>(new LinearTicker(room));
+QSharedPointer<QCPAxisTicker> linearTicker(int room, const LabelRoom& labels) {
+    return QSharedPointer<QCPAxisTicker>(new LinearTicker(room, labels));
 }
 QSharedPointer<QCPAxisTicker> logTicker(int room) {
     return QSharedPointer<QCPAxisTicker>(new LogTicker(room));

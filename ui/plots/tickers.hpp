@@ -3,6 +3,7 @@
 /// powers of ten with real superscripts, real minus signs.
 #pragma once
 
+#include <QFont>
 #include <QSharedPointer>
 #include <QString>
 
@@ -14,8 +15,14 @@ class QCPAxisTicker;
 
 namespace extremal {
 
-/// `room`: number of labels that fit on the axis.
-QSharedPointer<QCPAxisTicker> linearTicker(int room);
+/// How long a horizontal axis is [pixels], 0: as long as its labels need, and how they are written.
+struct LabelRoom {
+    double length = 0;
+    QFont font;
+};
+
+/// `room`: number of labels that fit on the axis, of usual length; of longer ones some are left out.
+QSharedPointer<QCPAxisTicker> linearTicker(int room, const LabelRoom& labels = {});
 QSharedPointer<QCPAxisTicker> logTicker(int room);
 
 /// Words at their places, in place of numbers; one that is nearer than `least` to the last one shown is left

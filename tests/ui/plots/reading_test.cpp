@@ -100,6 +100,28 @@ private slots:
         for (double size = 1e-3; size < 1e4; size *= 1.37)
             QVERIFY(labelsOn(*linearTicker(8), {0.1, 0.1 + size}) <= 9);
     }
+    void longNumbersDoNotTouch() {
+        const QFont font = Theme::light().caption();
+        for (const double length : {90.0, 111.0, 160.0, 300.0})
+            for (double size = 1; size < 1e9; size *= 1.37) {
+                const QCPRange range(0, size);
+                QVector<double> ticks;
+                QVector<QString> labels;
+                linearTicker(std::max(3, static_cast<int>(length / 64)), {length, font})
+                    ->generate(range, QLocale::c(), 'g', 6, ticks, nullptr, &labels);
+                double last = -1e9;
+                int shown = 0;
+                for (qsizetype i = 0; i < ticks.size(); ++i) {
+                    if (labels[i].isEmpty() || !range.contains(ticks[i])) continue;
+                    const double half = QFontMetricsF(font).horizontalAdvance(labels[i]) / 2,
+                                 at = ticks[i] / size * length;
+                    QVERIFY2(at - half > last, qPrintable(QString("%1 on %2").arg(size).arg(length)));
+                    last = at + half;
+                    ++shown;
+                }
+                QVERIFY2(shown >= 2, qPrintable(QString("%1 on %2").arg(size).arg(length)));
+            }
+    }
     void aTitleThatDoesNotFitBesideTheAxisStandsAboveIt_data() {
         QTest::addColumn<QString>("title");
         QTest::newRow("words") << "a title of many words, with a unit  [kg m/s]";
