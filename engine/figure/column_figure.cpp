@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/figure/column_figure.hpp"
 
+#include <algorithm>
+
 namespace extremal {
+namespace {
+
+/// Whether a title begins with a name of the scene, which is written as it is: x and X may both be there.
+bool beginsWithName(const System& system, const std::string& title) {
+    const std::string word = title.substr(0, title.find(' '));
+    return word.size() == 1 || std::any_of(system.coordinates.begin(), system.coordinates.end(),
+                                           [&](const Coordinate& c) { return c.name == word; });
+}
+
+}  // namespace
 
 std::string titleOfColumn(const FigureContext& context, const std::string& column) {
     if (context.system)
         for (const Quantity& c : stateColumns(*context.system))
             if (column == c.name && !c.title.empty()) {
                 std::string title = c.title;
-                if (title == c.symbol) return title;  // a letter is that letter
+                if (title == c.symbol || beginsWithName(*context.system, title)) return title;
                 title[0] =
                     static_cast<char>(title[0] >= 'a' && title[0] <= 'z' ? title[0] - 'a' + 'A' : title[0]);
                 return title;

@@ -23,7 +23,7 @@ namespace {
 Coordinate describedInSpace(Coordinate c) {
     const bool isEntry = c.name.starts_with("R") && c.name.size() > 4 && c.name[3] == '_';
     const std::string whose = c.name.substr(isEntry ? 4 : 2);
-    c.title = isEntry ? c.name.substr(1, 1) + " of axis " + c.name.substr(2, 1) + " of " + whose
+    c.title = isEntry ? "axis " + c.name.substr(2, 1) + " of " + whose + ", component " + c.name.substr(1, 1)
                       : c.name.substr(0, 1) + " of " + whose;
     c.unit = isEntry ? "" : "m";
     c.momentumUnit = isEntry ? "kg m²/s" : "kg m/s";
