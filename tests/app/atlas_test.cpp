@@ -41,7 +41,7 @@ private slots:
         const QTemporaryDir dir;
         const Answer a = atlas({"--out", dir.filePath("out")});
         QCOMPARE(a.code, 0);
-        QCOMPARE(a.err, QString());
+        QVERIFY2(!a.err.contains("extremal:"), qPrintable(a.err));  // nothing but how long it takes
         const QByteArray page = tests::contentOf(dir.filePath("out/index.html"));
         QXmlStreamReader reader(page);
         int cells = 0, tables = 0;

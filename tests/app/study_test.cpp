@@ -53,7 +53,7 @@ private slots:
         const QTemporaryDir dir;
         const Answer a = study({"convergence", "-", "--out", dir.filePath("out"), "--repeat", "1"});
         QCOMPARE(a.code, 0);
-        QCOMPARE(a.err, QString());
+        QVERIFY2(!a.err.contains("extremal:"), qPrintable(a.err));  // nothing but how long it takes
         QVERIFY2(a.out.contains("Galerkin 4") && a.out.contains("claimed"), qPrintable(a.out));
         QCOMPARE(QDir(dir.filePath("out")).entryList(QDir::Files | QDir::Hidden, QDir::Name),
                  (QStringList{"convergence.csv", "convergence.log", "convergence.png", "convergence.svg",
