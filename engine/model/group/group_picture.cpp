@@ -91,17 +91,15 @@ void drawArrows(const Drawn& drawn, bool isSpatial, const double* x, Drawing& dr
     }
 }
 
-/// In a row; the last one that turns leaves the trail.
+bool isSolid(const Drawn& drawn) { return drawn.look == Look::body || drawn.look == Look::unitBody; }
+
+/// In a row; the last solid leaves the trail, or else the last of the others.
 void drawFactors(const std::vector<Drawn>& row, bool isSpatial, const double* x, Drawing& drawing) {
     if (isSpatial && !drawing.isTracerOnly) drawSpaceAxes(1.9, drawing);
-    for (const bool isSolid : {false, true})
-        for (const Drawn& drawn : row)
-            if ((drawn.look == Look::body || drawn.look == Look::unitBody) != isSolid)
-                continue;
-            else if (isSolid)
-                drawSolidOf(drawn, x, drawing);
-            else
-                drawArrows(drawn, isSpatial, x, drawing);
+    for (const Drawn& drawn : row)
+        if (!isSolid(drawn)) drawArrows(drawn, isSpatial, x, drawing);
+    for (const Drawn& drawn : row)
+        if (isSolid(drawn)) drawSolidOf(drawn, x, drawing);
     if (!drawing.isTracerOnly) drawing.shapes.push_back(Disc{drawing.tracer, 4});
 }
 
@@ -188,7 +186,7 @@ void describePicture(System& system, const GroupMechanics& on) {
         if (f.n == 2) drawn.look = Look::image;
         if (f.n == 3 && on.invariants->isOrthogonal(k)) drawn.look = Look::body;
         if (isNamed(f, "su2")) drawn.look = Look::unitBody;
-        if (drawn.look == Look::body || drawn.look == Look::unitBody) {
+        if (isSolid(drawn)) {
             BodyMechanics<double> body;
             body.dimension = 3;
             body.inertia.fill(1);
