@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/family/discretization.hpp"
-#include "engine/family/field/time_table.hpp"
+#include "engine/family/time_table.hpp"
 #include "engine/model/field/spatial_form.hpp"
 #include "engine/quadrature/rule.hpp"
 

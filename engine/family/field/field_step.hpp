@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/family/field/time_table.hpp"
+#include "engine/family/time_table.hpp"
 #include "engine/family/field_march.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/field/spatial_form.hpp"

@@ -12,7 +12,7 @@
 
 #include <memory>
 
-#include "engine/family/field/time_table.hpp"
+#include "engine/family/time_table.hpp"
 #include "engine/family/step_equations.hpp"
 #include "engine/model/field/spatial_form.hpp"
 

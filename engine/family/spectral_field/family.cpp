@@ -19,7 +19,7 @@
 #include "engine/family/parts/smaller_spaces.hpp"
 #include "engine/family/parts/steps.hpp"
 #include "engine/family/rule_choices.hpp"
-#include "engine/family/spectral_field/spectral_step.hpp"
+#include "engine/family/modal_step.hpp"
 #include "engine/model/field/field_system.hpp"
 #include "engine/model/plane_field/problem.hpp"
 #include "engine/model/plane_field/settings.hpp"
@@ -248,8 +248,8 @@ std::unique_ptr<Integrator> makeSpectral(const System& system, const Discretizat
     const int degreeOfW = domain.potential.degree();
     scheme.nodes = nodesOf(d.space, domain.nx, degreeOfW);
     scheme.nodesY = nodesOf(d.space, domain.ny, degreeOfW);
-    scheme.tolerance = d.solver.number("tolerance");
-    scheme.maxIterations = d.solver.integer("max_iterations");
+    scheme.solver.tolerance = d.solver.number("tolerance");
+    scheme.solver.maxIterations = d.solver.integer("max_iterations");
     return makeSpectralField(domain, scheme, step);
 }
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "engine/family/field/dispersion.hpp"
-#include "engine/family/field/time_table.hpp"
+#include "engine/family/time_table.hpp"
 #include "engine/family/frequency.hpp"
 #include "engine/passport/passport.hpp"
 #include "engine/quadrature/catalog.hpp"

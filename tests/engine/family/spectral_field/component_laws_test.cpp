@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "engine/baseline/plane_leapfrog.hpp"
-#include "engine/family/spectral_field/spectral_step.hpp"
+#include "engine/family/field/plane_leapfrog.hpp"
+#include "engine/family/modal_step.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "tests/engine/family/spectral_field/component_fields.hpp"

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "engine/core/problem.hpp"
-#include "engine/family/spectral_field/stage_tables.hpp"
+#include "engine/family/stage_tables.hpp"
 #include "engine/model/field/trigonometric_form.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "tests/engine/family/field/fields.hpp"

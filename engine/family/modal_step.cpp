@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/family/spectral_field/spectral_step.hpp"
+#include "engine/family/modal_step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,28 +10,81 @@
 
 #include "engine/core/algebra/lanes.hpp"
 #include "engine/family/field_march.hpp"
+#include "engine/model/field/element_grid.hpp"
 #include "engine/model/field/spectral_grid.hpp"
-#include "engine/family/spectral_field/stage_tables.hpp"
+#include "engine/family/stage_tables.hpp"
 #include "engine/model/plane_field/problem.hpp"
 
 namespace extremal {
 namespace {
 
-class SpectralField final : public FieldMarch {
+/// The ways of Fourier modes; a row has the real and the imaginary part of each.
+class FourierGrid {
 public:
-    SpectralField(const SpectralDomain& domain, const SpectralScheme& scheme, double step)
-        : FieldMarch(domain.potential.components() * static_cast<std::size_t>(domain.nx) *
-                         static_cast<std::size_t>(domain.ny),
-                     step),
-          domain_(domain),
-          scheme_(scheme),
+    FourierGrid(const SpectralDomain& domain, const SpectralScheme& scheme)
+        : grid_(domain.nx, domain.ny, scheme.nodes, domain.ny > 1 ? scheme.nodesY : 1),
+          mass_(domain.lengthX * domain.lengthY / static_cast<double>(grid_.nodes())) {}
+    std::size_t nodes() const { return grid_.nodes(); }
+    std::size_t points() const { return grid_.points(); }
+    std::size_t numbers() const { return 2 * grid_.modes(); }
+    void toModes(const double* nodes, double* row) { grid_.toModes(nodes, row); }
+    void toNodes(const double* row, double* nodes) { grid_.toNodes(row, nodes); }
+    void toPoints(const double* row, double* values) { grid_.toPoints(row, values); }
+    void fromPoints(double* values, double* row) {
+        const double scale = 1 / static_cast<double>(points());
+        for (std::size_t i = 0; i < points(); ++i) values[i] *= scale;
+        grid_.fromPoints(values, row);
+    }
+    void fromMomenta(const double* momenta, double* row) {
+        grid_.toModes(momenta, row);
+        for (std::size_t i = 0; i < numbers(); ++i) row[i] /= mass_;
+    }
+    void toMomenta(const double* row, double* momenta) {
+        grid_.toNodes(row, momenta);
+        for (std::size_t i = 0; i < nodes(); ++i) momenta[i] *= mass_;
+    }
+    double squareOf(const double* row) const { return grid_.squareOf(row); }
+
+private:
+    SpectralGrid grid_;
+    double mass_;  ///< of a node
+};
+
+std::vector<double> gradientsOf(const SpectralDomain& domain) {
+    const double turn = 2 * std::numbers::pi, baseX = turn / domain.lengthX, baseY = turn / domain.lengthY;
+    std::vector<double> all;
+    for (int l = 0; l < domain.ny; ++l)
+        for (int k = 0; k <= domain.nx / 2; ++k) {
+            const double K = baseX * k, L = baseY * (2 * l > domain.ny ? l - domain.ny : l);
+            all.insert(all.end(), 2, K * K + L * L);
+        }
+    return all;
+}
+
+struct StepInTime {
+    int degree;
+    Rule<double> rule;
+    StageSolver solver;
+};
+
+template <class Grid>
+class ModalField final : public FieldMarch {
+public:
+    /// `gradients`: |grad|^2 of each number in a row of the grid.
+    ModalField(Grid grid, const SpectralDomain& domain, const std::vector<double>& gradients, StepInTime time,
+               double step)
+        : FieldMarch(domain.potential.components() * grid.nodes(), step),
+          potential_(domain.potential),
+          time_(std::move(time)),
           components_(domain.potential.components()),
           shifts_(domain.potential.meanCurvatures()),
-          stages_(static_cast<std::size_t>(scheme.degree)),
-          grid_(domain.nx, domain.ny, scheme.nodes, domain.ny > 1 ? scheme.nodesY : 1),
+          stages_(static_cast<std::size_t>(time_.rule.size())),
+          grid_(std::move(grid)),
           points_(grid_.points()),
           stride_((points_ + Lanes::size - 1) / Lanes::size * Lanes::size),
-          width_(StageTables::widthOf(components_ * grid_.modes())) {
+          width_(StageTables::widthOf(components_ * grid_.numbers())) {
+        for (std::size_t c = 0; c < components_; ++c)
+            for (const double each : gradients) linear_.push_back(domain.stiffness[c] * each + shifts_[c]);
         known_.resize(2 * n());
         for (auto* row : {&U_, &V_, &dU_, &dV_}) row->resize(width_);
         for (auto* rows : {&G_, &before_, &Y_}) rows->resize(width_ * stages_);
@@ -39,7 +92,7 @@ public:
         values_.resize(components_ * stride_);
         slope_.resize(components_ * stride_);
     }
-    std::unique_ptr<Integrator> clone() const override { return std::make_unique<SpectralField>(*this); }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<ModalField>(*this); }
     bool checkpoint(Archive& archive) override {
         const bool isWhole = FieldMarch::checkpoint(archive);  // it prepares, which forgets
         archive(isKnown_, known_, U_, V_, G_);
@@ -48,16 +101,7 @@ public:
 
 private:
     void prepare() override {
-        const double turn = 2 * std::numbers::pi, baseX = turn / domain_.lengthX,
-                     baseY = turn / domain_.lengthY;
-        std::vector<double> stiffness;
-        for (std::size_t c = 0; c < components_; ++c)
-            for (int l = 0; l < domain_.ny; ++l)
-                for (int k = 0; k <= domain_.nx / 2; ++k) {
-                    const double K = baseX * k, L = baseY * (2 * l > domain_.ny ? l - domain_.ny : l);
-                    stiffness.push_back(domain_.stiffness[c] * (K * K + L * L) + shifts_[c]);
-                }
-        tables_ = StageTables(gauss<double>(scheme_.degree), h(), stiffness);
+        tables_ = StageTables(time_.degree, time_.rule, h(), linear_);
         isKnown_ = false;  // G of another step does not help
     }
     Outcome step(const double* x, double* next, StepReport& report) override {
@@ -72,7 +116,7 @@ private:
         }
         isKnown_ = false;  // until the step is done
         const Outcome solved = iterate(U_.data(), V_.data(), u_, report, [this](std::size_t) {
-            domain_.potential.evaluate(values_.data(), points_, stride_, nullptr, slope_.data(), nullptr);
+            potential_.evaluate(values_.data(), points_, stride_, nullptr, slope_.data(), nullptr);
         });
         if (solved != Outcome::converged) return solved;
         tables_.toEnd(G_.data(), U_.data(), V_.data());
@@ -85,15 +129,15 @@ private:
 
     void toModes(const double* nodes, double* row) {
         for (std::size_t c = 0; c < components_; ++c)
-            grid_.toModes(nodes + c * grid_.nodes(), row + 2 * c * grid_.modes());
+            grid_.toModes(nodes + c * grid_.nodes(), row + c * grid_.numbers());
     }
     void toNodes(const double* row, double* nodes) {
         for (std::size_t c = 0; c < components_; ++c)
-            grid_.toNodes(row + 2 * c * grid_.modes(), nodes + c * grid_.nodes());
+            grid_.toNodes(row + c * grid_.numbers(), nodes + c * grid_.nodes());
     }
     double squareOf(const double* row) const {
         double sum = 0;
-        for (std::size_t c = 0; c < components_; ++c) sum += grid_.squareOf(row + 2 * c * grid_.modes());
+        for (std::size_t c = 0; c < components_; ++c) sum += grid_.squareOf(row + c * grid_.numbers());
         return sum;
     }
 
@@ -104,8 +148,8 @@ private:
                     Rest&& rest) {
         constexpr double roundOff = 1e-14, stagnation = 1e-11;
         const double size = std::sqrt(squareOf(U)) + std::abs(h()) * std::sqrt(squareOf(V)),
-                     tolerance = scheme_.tolerance > 0 ? scheme_.tolerance : roundOff;
-        const int most = scheme_.maxIterations > 0 ? scheme_.maxIterations : 100;
+                     tolerance = time_.solver.tolerance > 0 ? time_.solver.tolerance : roundOff;
+        const int most = time_.solver.maxIterations > 0 ? time_.solver.maxIterations : 100;
         double last = 0;
         for (int k = 0; k < most; ++k) {
             if (stop().stop_requested()) return Outcome::stopped;
@@ -115,7 +159,7 @@ private:
             for (std::size_t i = 0; i < stages_; ++i) {
                 for (std::size_t c = 0; c < components_; ++c) {
                     double* const values = values_.data() + c * stride_;
-                    grid_.toPoints(Y_.data() + i * width_ + 2 * c * grid_.modes(), values);
+                    grid_.toPoints(Y_.data() + i * width_ + c * grid_.numbers(), values);
                     squares += replace(values, stages.data() + (i * components_ + c) * stride_);
                 }
                 rest(i);
@@ -146,12 +190,11 @@ private:
         return (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
     void forceToModes(double* row) {
-        const double scale = 1 / static_cast<double>(points_);
         for (std::size_t c = 0; c < components_; ++c) {
             double* const values = values_.data() + c * stride_;
             const double* const slope = slope_.data() + c * stride_;
-            for (std::size_t i = 0; i < points_; ++i) values[i] = scale * (shifts_[c] * values[i] - slope[i]);
-            grid_.fromPoints(values, row + 2 * c * grid_.modes());
+            for (std::size_t i = 0; i < points_; ++i) values[i] = shifts_[c] * values[i] - slope[i];
+            grid_.fromPoints(values, row + c * grid_.numbers());
         }
     }
 
@@ -161,8 +204,8 @@ private:
         const std::size_t rows = components_ * (components_ + 1) / 2;
         curvature_.resize(rows * stride_ * stages_);
         for (std::size_t i = 0; i < stages_; ++i)
-            domain_.potential.evaluate(u_.data() + i * components_ * stride_, points_, stride_, nullptr,
-                                       nullptr, curvature_.data() + i * rows * stride_);
+            potential_.evaluate(u_.data() + i * components_ * stride_, points_, stride_, nullptr, nullptr,
+                                curvature_.data() + i * rows * stride_);
         return isKnown_;
     }
     /// slope_ <- W'' values_ at stage i.
@@ -176,32 +219,33 @@ private:
                     if (d < c) slope_[d * stride_ + j] += curvature[j] * values_[c * stride_ + j];
                 }
     }
-    /// The equations of the step are those of a variation with W'' u in place of W'(u); momenta are dx v, of
-    /// a rectangle dx dy v.
+    /// The equations of the step are those of a variation with W'' u in place of W'(u).
     void vary(std::vector<double>& du, std::vector<double>& dp) override {
-        const double mass = domain_.lengthX * domain_.lengthY / static_cast<double>(grid_.nodes());
-        for (double& each : dp) each /= mass;
-        toModes(du.data(), dU_.data());
-        toModes(dp.data(), dV_.data());
+        for (std::size_t c = 0; c < components_; ++c) {
+            grid_.toModes(du.data() + c * grid_.nodes(), dU_.data() + c * grid_.numbers());
+            grid_.fromMomenta(dp.data() + c * grid_.nodes(), dV_.data() + c * grid_.numbers());
+        }
         before_.swap(G_);  // G of the step stays for the next one
         std::fill(G_.begin(), G_.end(), 0.0);
         StepReport report;
         (void)iterate(dU_.data(), dV_.data(), varied_, report, [this](std::size_t i) { applyCurvature(i); });
         tables_.toEnd(G_.data(), dU_.data(), dV_.data());
         before_.swap(G_);
-        toNodes(dU_.data(), du.data());
-        toNodes(dV_.data(), dp.data());
-        for (double& each : dp) each *= mass;
+        for (std::size_t c = 0; c < components_; ++c) {
+            grid_.toNodes(dU_.data() + c * grid_.numbers(), du.data() + c * grid_.nodes());
+            grid_.toMomenta(dV_.data() + c * grid_.numbers(), dp.data() + c * grid_.nodes());
+        }
     }
 
-    SpectralDomain domain_;
-    SpectralScheme scheme_;
+    JointPotential potential_;
+    StepInTime time_;
     std::size_t components_;
     std::vector<double> shifts_;  ///< w of each component
     std::size_t stages_;
-    SpectralGrid grid_;
+    Grid grid_;
     std::size_t points_, stride_;  ///< from one component to the next: each begins where arrays are aligned
     std::size_t width_;
+    std::vector<double> linear_;  ///< c^2 k^2 + w of each number in a row
     StageTables tables_;
     bool isKnown_ = false;
     std::vector<double> known_;       ///< the values that U_ and V_ belong to
@@ -229,7 +273,19 @@ SpectralDomain spectralDomainOf(const System& system) {
 
 std::unique_ptr<Integrator> makeSpectralField(const SpectralDomain& domain, const SpectralScheme& scheme,
                                               double step) {
-    return std::make_unique<SpectralField>(domain, scheme, step);
+    return std::make_unique<ModalField<FourierGrid>>(
+        FourierGrid(domain, scheme), domain, gradientsOf(domain),
+        StepInTime{scheme.degree, gauss<double>(scheme.degree), scheme.solver}, step);
+}
+
+std::unique_ptr<Integrator> makeElementField(const SpectralDomain& domain, const ElementScheme& scheme,
+                                             double step) {
+    ElementGrid grid({domain.nx, scheme.degree, domain.lengthX}, {domain.ny, scheme.degree, domain.lengthY},
+                     scheme.inSpace);
+    const std::vector<double> gradients = grid.gradients();
+    return std::make_unique<ModalField<ElementGrid>>(
+        std::move(grid), domain, gradients, StepInTime{scheme.degreeInTime, scheme.inTime, scheme.solver},
+        step);
 }
 
 }  // namespace extremal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/family/field/time_table.hpp"
+#include "engine/family/time_table.hpp"
 
 #include <cmath>
 

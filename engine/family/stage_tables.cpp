@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/family/spectral_field/stage_tables.hpp"
+#include "engine/family/stage_tables.hpp"
 
 #include <Eigen/Core>
 
@@ -9,6 +9,7 @@
 #include "engine/core/algebra/dense.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes.hpp"
+#include "engine/family/time_table.hpp"
 #include "engine/quadrature/collocation.hpp"
 
 namespace extremal {
@@ -60,45 +61,64 @@ inline void aheadLanes(const double* table, std::size_t stages, std::size_t widt
 
 }  // namespace
 
-StageTables::StageTables(const Rule<double>& rule, double h, const std::vector<double>& stiffness)
+StageTables::StageTables(int degree, const Rule<double>& rule, double h, const std::vector<double>& stiffness)
     : stages_(static_cast<std::size_t>(rule.size())),
       width_(widthOf(stiffness.size())),
       stage_(width_ * stages_ * (stages_ + 2)),
       end_(width_ * 2 * (stages_ + 2)),
       ahead_(extrapolationTable(rule)) {
-    fill(rule, h, stiffness);
+    fill(degree, rule, h, stiffness);
 }
 
-void StageTables::fill(const Rule<double>& rule, double h, const std::vector<double>& stiffness) {
-    const auto s = static_cast<Eigen::Index>(stages_);
-    const Eigen::MatrixXd A = collocationMatrix(rule);
-    const Eigen::Map<const Eigen::VectorXd> b(rule.b.data(), s), c(rule.c.data(), s);
-    const Eigen::MatrixXd A2 = A * A;
-    const Eigen::VectorXd bA = A.transpose() * b;
-    Eigen::MatrixXd right(s, s + 2), all(s, s + 2), ends(2, s + 2);
-    right.col(0).setOnes();
-    right.col(1) = h * c;
-    right.rightCols(s) = h * h * A2;
-    for (std::size_t mode = 0; mode < stiffness.size(); ++mode) {
-        const double K = stiffness[mode];
-        all = dense::inverse<double>(Eigen::MatrixXd::Identity(s, s) + h * h * K * A2) * right;
-        // G_j - K u_j: the acceleration at stage j.
-        Eigen::MatrixXd rate = -K * all;
-        rate.rightCols(s) += Eigen::MatrixXd::Identity(s, s);
-        ends.row(0) = h * h * bA.transpose() * rate;
-        ends.row(1) = h * b.transpose() * rate;
-        ends(0, 0) += 1;
-        ends(0, 1) += h;
-        ends(1, 1) += 1;
-        for (const std::size_t part : {std::size_t{0}, std::size_t{1}}) {
-            const std::size_t place = 2 * mode + part, lane = place % block, first = place - lane;
-            double* at = stage_.data() + first * stages_ * (stages_ + 2) + lane;
-            for (Eigen::Index i = 0; i < s; ++i)
-                for (Eigen::Index j = 0; j < s + 2; ++j, at += block) *at = all(i, j);
-            at = end_.data() + first * 2 * (stages_ + 2) + lane;
-            for (Eigen::Index j = 0; j < s + 2; ++j)
-                for (Eigen::Index i = 0; i < 2; ++i, at += block) *at = ends(i, j);
+void StageTables::fill(int degree, const Rule<double>& rule, double h, const std::vector<double>& stiffness) {
+    const TimeTable time(degree, rule);
+    const auto s = static_cast<Eigen::Index>(degree), q = static_cast<Eigen::Index>(stages_);
+    // Row l: psi_l at the nodes; what is known comes in columns of u, h v and h^2 G.
+    Eigen::MatrixXd psi(s + 1, q), slope(s + 1, q), known = Eigen::MatrixXd::Zero(q, q + 2);
+    for (Eigen::Index i = 0; i < q; ++i)
+        for (Eigen::Index l = 0; l <= s; ++l) {
+            psi(l, i) = time.value(static_cast<int>(i), static_cast<int>(l));
+            slope(l, i) = time.slope(static_cast<int>(i), static_cast<int>(l));
         }
+    const Eigen::Map<const Eigen::VectorXd> b(rule.b.data(), q), c(rule.c.data(), q);
+    known.col(0).setOnes();
+    known.col(1) = c;
+    const Eigen::MatrixXd weighted = psi.topRows(s) * b.asDiagonal(),
+                          mass = slope.topRows(s) * b.asDiagonal() * slope.bottomRows(s).transpose(),
+                          values = psi.bottomRows(s).transpose();
+    Eigen::VectorXd start = slope.topRows(s) * b;  // e_l
+    start(0) += 1;
+    Eigen::MatrixXd all(q, q + 2), right(s, q + 2), ends(2, q + 2);
+    const auto solve = [&](double K) {
+        right = K * weighted * known;
+        right.col(1) -= start;
+        right.rightCols(q) -= weighted;
+        const Eigen::MatrixXd d = dense::solve<double>(mass - K * weighted * values, right);
+        all = known + values * d;
+        // h^2 (G_q - K u_q): the acceleration at the nodes.
+        Eigen::MatrixXd rate = -K * all;
+        rate.rightCols(q) += Eigen::MatrixXd::Identity(q, q);
+        ends.row(0) = d.row(s - 1);
+        ends(0, 0) += 1;
+        ends(0, 1) += 1;
+        ends.row(1) = b.transpose() * rate;
+        ends(1, 1) += 1;
+        ends.row(1) /= h;
+        for (auto* rows : {&all, &ends}) {
+            rows->col(1) *= h;
+            rows->rightCols(q) *= h * h;
+        }
+    };
+    for (std::size_t number = 0; number < stiffness.size(); ++number) {
+        // Real and imaginary parts have one K.
+        if (number == 0 || stiffness[number] != stiffness[number - 1]) solve(h * h * stiffness[number]);
+        const std::size_t lane = number % block, first = number - lane;
+        double* at = stage_.data() + first * stages_ * (stages_ + 2) + lane;
+        for (Eigen::Index i = 0; i < q; ++i)
+            for (Eigen::Index j = 0; j < q + 2; ++j, at += block) *at = all(i, j);
+        at = end_.data() + first * 2 * (stages_ + 2) + lane;
+        for (Eigen::Index j = 0; j < q + 2; ++j)
+            for (Eigen::Index i = 0; i < 2; ++i, at += block) *at = ends(i, j);
     }
 }
 
