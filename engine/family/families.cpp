@@ -96,9 +96,14 @@ bool appliesTo(const Family& family, const System& system) {
     return isTaken(family.takes, system.parts) && meetsCondition(family.parts, system);
 }
 
+bool isVariant(const Family& family, const System& system) {
+    const auto* const variant = family.parts.find<Variant>();
+    return variant && isTaken(variant->of, system.parts);
+}
+
 const Family* familyFor(const System& system) {
     for (const Family& family : families())
-        if (!family.parts.find<Variant>() && appliesTo(family, system)) return &family;
+        if (!isVariant(family, system) && appliesTo(family, system)) return &family;
     return nullptr;
 }
 
@@ -115,7 +120,7 @@ std::vector<ChoiceGrid> choiceGrids(const System& system) {
                                                                });
         if (!fit) continue;
         ChoiceGrid& grid = grids.front();
-        if (!family.parts.find<Variant>() || further.width() != grid.width()) {
+        if (!isVariant(family, system) || further.width() != grid.width()) {
             grids.push_back(std::move(further));
             continue;
         }

@@ -71,6 +71,8 @@ const P* familyPart(const Settings& space) {
 }
 /// Whether it takes every part that the system needs, and the system meets its condition.
 bool appliesTo(const Family& family, const System& system);
+/// Whether the system's main family is another one (parts/variant.hpp).
+bool isVariant(const Family& family, const System& system);
 /// The family that the window starts from for a system, and that references come from; null where none
 /// applies.
 const Family* familyFor(const System& system);

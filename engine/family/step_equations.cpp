@@ -89,12 +89,12 @@ LocalCoordinates ownCoordinates(const System& system, const State& start) {
 }
 
 std::string missingEquations(const System& system, const std::string& what,
-                             const char* (*instead)(const StepEquations&)) {
+                             const char* (*instead)(const StepEquations&, const System&)) {
     std::string others;
     for (const StepEquations& e : stepEquations()) {
         const Family* const family = findFamily(e.family);
         if (!family || !appliesTo(*family, system)) continue;
-        const char* const reason = instead(e);
+        const char* const reason = instead(e, system);
         if (!reason) return {};
         others += (others.empty() ? "" : ", or ") + std::string(reason);
     }

@@ -83,7 +83,12 @@ struct EquationPart {
     const char* instead = "";
     /// Why one discretization has none, in the same words; empty text: it has. Null: all have.
     std::string (*lacking)(const Discretization&) = nullptr;
+    Takes of = Takes::everything();  ///< for which systems of the family `make` is; of others `instead`
 
+    /// `instead`, of a system that has none; null where it has.
+    const char* insteadOn(const System& system) const {
+        return make && isTaken(of, system.parts) ? nullptr : instead;
+    }
     std::string lackingOf(const Discretization& d) const {
         return !make ? instead : lacking ? lacking(d) : std::string();
     }
@@ -126,7 +131,7 @@ LocalCoordinates ownCoordinates(const System& system, const State& start);
 /// What a system lacks for a part, for ViewEntry::missing: `what`, and what the schemes of its families are
 /// instead. Empty where one of them has the part. `instead`: of a family; null: it has the part.
 std::string missingEquations(const System& system, const std::string& what,
-                             const char* (*instead)(const StepEquations&));
+                             const char* (*instead)(const StepEquations&, const System&));
 
 /// The KKT matrix of elements in the coordinates of `mechanics` (action/saddle_point.hpp), at the motion
 /// through `nodes`, d x (elements + 1), from the momentum p0.

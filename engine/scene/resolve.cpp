@@ -197,7 +197,8 @@ ResolvedScheme refined(const ResolvedScheme& scheme, const ResolvedScene& resolv
     };
     for (const Family& family : families()) {
         const auto* const onFiner = family.parts.find<RefinedMesh>();
-        if (!onFiner || !appliesTo(family, *resolved.system)) continue;
+        if (!onFiner || !appliesTo(family, *resolved.system) || !isTaken(onFiner->of, resolved.system->parts))
+            continue;
         refine(*onFiner);
         return finer;
     }

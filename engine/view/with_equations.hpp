@@ -11,15 +11,14 @@
 namespace extremal {
 
 inline std::string matrixMissing(const View&, const System& system) {
-    return missingEquations(system, "equations of a step with a matrix", [](const StepEquations& e) {
-        return e.matrix.make ? nullptr : e.matrix.instead;
-    });
+    return missingEquations(system, "equations of a step with a matrix",
+                            [](const StepEquations& e, const System& of) { return e.matrix.insteadOn(of); });
 }
 
 inline std::string actionMissing(const View&, const System& system) {
     return missingEquations(system, "a discrete Lagrangian between two positions",
-                            [](const StepEquations& e) {
-                                return e.coordinates.make || e.actions.make ? nullptr : e.actions.instead;
+                            [](const StepEquations& e, const System& of) {
+                                return e.coordinates.make ? nullptr : e.actions.insteadOn(of);
                             });
 }
 
@@ -27,15 +26,14 @@ inline std::string actionMissing(const View&, const System& system) {
 inline bool isOfSpace(const View& view) { return view.keys.text("direction") == "space"; }
 
 inline std::string functionsMissing(const View& view, const System& system) {
-    const std::string ofSpace = missingEquations(system, "functions of space", [](const StepEquations& e) {
-        return e.spaceFunctions.make ? nullptr : e.spaceFunctions.instead;
-    });
+    const std::string ofSpace = missingEquations(
+        system, "functions of space",
+        [](const StepEquations& e, const System& of) { return e.spaceFunctions.insteadOn(of); });
     if (isOfSpace(view)) return ofSpace;
     const std::string what =
         ofSpace.empty() ? "\"direction\": \"space\", or functions of time" : "functions of time";
-    return missingEquations(system, what, [](const StepEquations& e) {
-        return e.functions.make ? nullptr : e.functions.instead;
-    });
+    return missingEquations(
+        system, what, [](const StepEquations& e, const System& of) { return e.functions.insteadOn(of); });
 }
 
 }  // namespace extremal

@@ -22,6 +22,7 @@ struct OwnMesh {
 struct RefinedMesh {
     static constexpr PartInfo part{"refined-mesh", "orders in space and time", false};
     Settings (*model)(const Settings& model, int factor) = nullptr;
+    Takes of = Takes::everything();  ///< for which systems of the family
 };
 
 }  // namespace extremal

@@ -33,7 +33,7 @@ std::vector<ReferencePlan> referencePlans(const System& system, const State& sta
             all.push_back(std::move(plan));
     };
     for (const Family& family : families())
-        if (family.parts.find<Variant>()) add(family);
+        if (isVariant(family, system)) add(family);
     if (const Family* const own = familyFor(system)) add(*own);
     return all;
 }

@@ -43,6 +43,7 @@ struct TrustedScheme {
 struct TrustedMesh {
     static constexpr PartInfo part{"trusted-mesh", "a scheme of references on a mesh of its own", false};
     ReferenceMesh (*refined)(const Settings& model, double step, int refinement) = nullptr;
+    Takes of = Takes::everything();  ///< for which systems of the family
 };
 
 /// References by a discretization, whose steps are halved until two of them agree.

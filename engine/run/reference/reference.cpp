@@ -137,7 +137,9 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
 /// The family that references of the system are computed with on meshes of their own; null: there is none.
 const Family* familyOnMeshes(const System& system) {
     for (const Family& family : families())
-        if (family.parts.find<TrustedMesh>() && appliesTo(family, system)) return &family;
+        if (const auto* const trusted = family.parts.find<TrustedMesh>();
+            trusted && appliesTo(family, system) && isTaken(trusted->of, system.parts))
+            return &family;
     return nullptr;
 }
 

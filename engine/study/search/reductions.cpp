@@ -43,8 +43,9 @@ Reduction richnessOf(const ResolvedScheme& scheme) {
 
 int cellsOf(const ResolvedScheme& scheme, const ResolvedScene& scene) {
     // Functions of their own are made for the medium, and their error does not fall like a power.
-    const bool isPlain = scheme.family && scheme.family->parts.find<OwnMesh>() &&
-                         scheme.family->parts.find<RefinedMesh>() && scheme.orderInSpace() > 0;
+    const auto* const finer = scheme.family ? scheme.family->parts.find<RefinedMesh>() : nullptr;
+    const bool isPlain = finer && isTaken(finer->of, scene.system->parts) &&
+                         scheme.family->parts.find<OwnMesh>() && scheme.orderInSpace() > 0;
     const Value* const functions = isPlain ? scheme.discretization.space.find("functions") : nullptr;
     if (!isPlain || (functions && *functions != Value("lagrange"))) return 0;
     const int own = wholeNumber(scheme.discretization.space, "cells");
