@@ -7,7 +7,7 @@
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/baseline/field_method.hpp"
-#include "engine/baseline/plane_leapfrog.hpp"
+#include "engine/family/field/plane_leapfrog.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/step_limit.hpp"
@@ -15,21 +15,6 @@
 #include "engine/model/plane_field/problem.hpp"
 
 namespace extremal::baselines {
-namespace {
-
-void checkPlaneStep(const PlaneFieldProblem& problem, const SchemeCase& scheme, Findings& findings) {
-    constexpr double slack = 1 + 1e-12;  // a step at the limit itself is stable
-    const double longest = planeLeapfrogLimit(problem, scheme.initial.x.data());
-    if (scheme.allowsUnstable || !(scheme.step > longest * slack)) return;
-    findings.error("/step",
-                   formatNumber(scheme.step) + " is beyond the stability limit " + formatNumber(longest, 4) +
-                       " of leapfrog on this mesh of " + std::to_string(problem.grid().nx) + " x " +
-                       std::to_string(problem.grid().ny) + " cells",
-                   "a smaller step, fewer cells, or \"allow_unstable\": true", "field-step");
-}
-
-}  // namespace
-
 BaselineEntry leapfrog() {
     BaselineEntry e;
     e.item = {
@@ -53,7 +38,9 @@ BaselineEntry leapfrog() {
         if (scheme.system.parts.find<ScalarField>())
             return checkFieldStep(*lumpedForm(scheme.system), 2, scheme, "leapfrog", findings);
         if (const auto* const plane = scheme.system.parts.find<PlaneField>())
-            return checkPlaneStep(*plane->problem, scheme, findings);
+            return checkPlaneStep(*plane->problem,
+                                  planeLeapfrogLimit(*plane->problem, scheme.initial.x.data()), "leapfrog",
+                                  scheme, findings);
         checkWaveLimit(1, waveFrequency(scheme.system, 0), scheme.step, scheme.allowsUnstable, findings);
     }});
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {

@@ -51,6 +51,16 @@ double spatialEigenvalue(int degree, const Rule<double>& rule, double kdx) {
     return eigen.values(2 * branch);
 }
 
+double largestSpatialEigenvalue(int degree, const Rule<double>& rule) {
+    const double pi = std::acos(-1.0);
+    double most = 0;
+    for (int b = 1; b <= degree; ++b)
+        most = std::max(most, spatialEigenvalue(degree, rule, b * pi * (1 - 1e-15)));
+    for (int i = 0; i <= 64 * degree; ++i)
+        most = std::max(most, spatialEigenvalue(degree, rule, i * pi / 64));
+    return most;
+}
+
 double halfTrace(const TimeTable& time, double z) {
     const int s = time.degree();
     // S = sum_lm A_lm U_l U_m / 2 with h = 1; p = -dS/dU_0, p' = dS/dU_s.

@@ -18,6 +18,9 @@ namespace extremal {
 /// Lambda of the wave number k dx in [0, pi r] on elements of length 1, with wave speed 1 and no potential.
 double spatialEigenvalue(int degree, const Rule<double>& rule, double kdx);
 
+/// The largest of them: that of the whole mesh, of any number of elements.
+double largestSpatialEigenvalue(int degree, const Rule<double>& rule);
+
 /// Half the trace of one step's map on the oscillator of frequency z / h.
 double halfTrace(const TimeTable& time, double z);
 

@@ -2,6 +2,8 @@
 /// Fields: hat functions and their higher-order likes on a mesh of space and time (Leok 2004, sec. 2.1,
 /// multisymplectic variational integrators).
 #include "engine/family/family.hpp"
+#include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/described_on_system.hpp"
 #include "engine/family/parts/dispersion.hpp"
 #include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/nodes.hpp"
@@ -12,6 +14,7 @@
 #include "engine/family/parts/starts.hpp"
 #include "engine/family/parts/steps.hpp"
 #include "engine/family/parts/tensor_rules.hpp"
+#include "engine/family/parts/variant.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,11 +33,13 @@
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/mass_matrix.hpp"
 #include "engine/family/field/patch_form.hpp"
+#include "engine/family/field/plane_tent.hpp"
 #include "engine/family/field/slab_stepper.hpp"
 #include "engine/family/field/step_limit.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/table_properties.hpp"
 #include "engine/model/field/field_system.hpp"
+#include "engine/model/plane_field/settings.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/solve/newton_policy.hpp"
@@ -100,16 +105,6 @@ std::string ruleName(const Settings& quadrature, const char* direction) {
     return own.type + (own.find("nodes") ? " " + std::to_string(own.integer("nodes")) : "");
 }
 
-/// The largest c dt/dx on a uniform mesh.
-double courantLimit(int degree, const Rule<double>& space, double limitInTime) {
-    double most = 0;
-    for (int b = 1; b <= degree; ++b)
-        most = std::max(most, spatialEigenvalue(degree, space, b * std::acos(-1.0) * (1 - 1e-15)));
-    for (int i = 0; i <= 64 * degree; ++i)
-        most = std::max(most, spatialEigenvalue(degree, space, i * std::acos(-1.0) / 64));
-    return limitInTime / std::sqrt(most);
-}
-
 /// Degrees that cannot be: sets the reason and what to write in their place. False if they can be.
 bool refuseDegrees(Properties& p, const Discretization& d, const TentDegrees& degrees) {
     if (degrees.space < 1 || degrees.space > FieldNodes::mostDegree || degrees.time < 1 ||
@@ -159,7 +154,8 @@ void describeStability(Properties& p, const Discretization& d, int degree, const
         p.hint = "midpoint in time, or another rule in space";
         p.remark = "unstable for every step";
     } else {
-        p.remark = order + ", stable for c dt/dx up to " + formatNumber(courantLimit(degree, rule, limit), 3);
+        p.remark = order + ", stable for c dt/dx up to " +
+                   formatNumber(limit / std::sqrt(largestSpatialEigenvalue(degree, rule)), 3);
     }
 }
 
@@ -228,6 +224,7 @@ Settings completeTent(const Settings& space, const Settings& quadrature) {
 
 std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
     const int degree = tentDegrees(space).space, cells = space.integer("cells");
+    if (model.type != "field" || componentNames(model) != std::vector<std::string>{"u"}) return {};
     if (degree == 1 && !hasOwnFunctions(space) && (cells == 0 || cells == model.integer("cells"))) return {};
     Settings own = model;
     for (auto& [key, value] : own.keys)
@@ -261,6 +258,7 @@ std::shared_ptr<const FieldProblem> problemFor(const System& system, const Discr
 void checkTent(const SchemeCase& scheme, Findings& findings) {
     const Discretization& d = scheme.discretization;
     if (describe(d).stabilityLimit <= 0) return;  // said already
+    if (scheme.system.parts.find<PlaneField>()) return checkPlaneTent(scheme, findings);
     const auto problem = problemFor(scheme.system, d);
     // The midpoint rule in time takes the velocity from the velocity, all others from the momentum.
     if (!scheme.allowsUnstable && !timeTable(d).isBalanced() && !problem->functions &&
@@ -305,6 +303,8 @@ ReferenceMesh referenceMesh(const Settings& model, double step, int refinement) 
 
 double largestStep(const System& system, const Discretization& d, const State& start) {
     if (describe(d).stabilityLimit <= 0) return 0;
+    if (const auto* const plane = system.parts.find<PlaneField>())
+        return refusalOnPlane(d, *plane->problem) ? 0 : longestPlaneStep(d, *plane->problem, start.x.data());
     const double limit = timeLimit(timeTable(d));
     if (std::isinf(limit)) return limit;
     return limit / std::sqrt(spatialForm(d, problemFor(system, d))->largestEigenvalue(start.x.data()));
@@ -345,8 +345,10 @@ ChoiceGrid choices(const System& system) {
     for (const Direction& c : columns) grid.columns.push_back({c.heading, c.description});
     for (const Direction& r : rows) {
         const bool isPolynomial = std::string_view(r.functions) == "lagrange";
-        if (!isPolynomial && !system.fieldProblem().coefficient) continue;  // they would be linear
-        grid.rows.push_back({r.heading, r.description});
+        const bool isPlane = system.parts.find<PlaneField>() != nullptr;
+        if (!isPolynomial && (isPlane || !system.fieldProblem().coefficient))
+            continue;  // they would be linear
+        std::vector<ChoiceGrid::Cell> row;
         for (const Direction& c : columns) {
             ChoiceGrid::Cell cell;
             const auto partOf = [](const Direction& d) {
@@ -366,8 +368,15 @@ ChoiceGrid choices(const System& system) {
             cell.text = known.stabilityLimit <= 0 ? "–" : std::isinf(known.stabilityLimit) ? "∞" : "ν";
             cell.superscript = std::to_string(known.claims.order);
             cell.title = std::string(r.description) + " × " + c.description;
-            grid.cells.push_back(std::move(cell));
+            row.push_back(std::move(cell));
         }
+        // Over a rectangle only those that its mesh can have.
+        if (isPlane && !std::all_of(row.begin(), row.end(), [&](const ChoiceGrid::Cell& cell) {
+                return isFor(cell.discretization, system);
+            }))
+            continue;
+        grid.rows.push_back({r.heading, r.description});
+        for (ChoiceGrid::Cell& cell : row) grid.cells.push_back(std::move(cell));
     }
     return grid;
 }
@@ -401,6 +410,7 @@ State startThrough(const System& system, const Discretization& d, double step, c
 }
 
 std::unique_ptr<Integrator> makeTent(const System& system, const Discretization& d, double step) {
+    if (system.parts.find<PlaneField>()) return makePlaneTent(system, d, step);
     const auto problem = problemFor(system, d);
     const TentDegrees degrees = tentDegrees(d.space);
     if (d.solver.type == "newton")
@@ -417,7 +427,7 @@ std::unique_ptr<Integrator> makeTent(const System& system, const Discretization&
 /// The patch is the middle half of the elements.
 std::optional<Measure> measure(std::string_view observable, const System& system, const Discretization& d,
                                double step) {
-    if (observable != "multisymplectic") return {};
+    if (observable != "multisymplectic" || !system.parts.find<ScalarField>()) return {};
     const auto problem = problemFor(system, d);
     const int N = problem->mesh.elements();
     if (N < 8) return {};
@@ -452,7 +462,7 @@ Family field() {
     f.item = {"field", "field", "Hat functions on a mesh of space and time.", {}, {}, "a field"};
     f.source = "Leok 2004, sec. 2.1";
     f.spaces = {tent()};
-    f.takes = Takes::only<ScalarField>();
+    f.takes = Takes::only<ScalarField, PlaneField>();
     f.completeRule = completeTent;
     f.describe = describeTent;
     f.check = checkTent;
@@ -464,12 +474,17 @@ Family field() {
     f.parts.set(TensorRules{});
     f.parts.set(NodesAlone{});
     f.parts.set(OwnMesh{modelOf});
-    f.parts.set(TrustedMesh{referenceMesh});
-    f.parts.set(RefinedMesh{refined});
+    f.parts.set(Variant{Takes::only<PlaneField>()});
+    f.parts.set(SchemeCondition{mismatchOnPlane});
+    f.parts.set(DescribedOnSystem{describeOnPlane});
+    f.parts.set(TrustedMesh{referenceMesh, Takes::only<ScalarField>()});
+    f.parts.set(RefinedMesh{refined, Takes::only<ScalarField>()});
     f.parts.set(LargestStep{largestStep});
     f.parts.set(StartThrough{startThrough});
     f.parts.set(SlowestStep{[](const SchemeCase& scheme) {
-        return 5e-3 * std::max(1.0, scheme.system.fieldProblem().size() / 2000.0);
+        const auto* const plane = scheme.system.parts.find<PlaneField>();
+        return 5e-3 * std::max(1.0, plane ? static_cast<double>(plane->problem->size()) / 256
+                                          : scheme.system.fieldProblem().size() / 2000.0);
     }});
     f.parts.set(SchemeIdentity{[](const Discretization& a, double, const Discretization& b) {
         return a.space == b.space && a.quadrature == b.quadrature;

@@ -12,6 +12,7 @@
 #include "engine/family/field/slab_matrix.hpp"
 #include "engine/family/step_equations.hpp"
 #include "engine/family/table_properties.hpp"
+#include "engine/model/plane_field/problem.hpp"
 #include "engine/space/polynomial.hpp"
 
 namespace extremal::equations {
@@ -64,7 +65,8 @@ std::string blockName(const UnknownBlock& b, int elements) {
 }
 
 SpaceFunctions onElement(const StepCase& c) {
-    const FieldProblem& problem = *fieldOf(c.system);
+    const auto* const plane = c.system.parts.find<PlaneField>();
+    const FieldProblem* const line = plane ? nullptr : fieldOf(c.system).get();
     const int r = tentDegrees(c.discretization.space).space, points = 120;
     const Rule<double> rule = ruleIn(c.discretization.quadrature, "space", r);
     SpaceFunctions f;
@@ -72,11 +74,13 @@ SpaceFunctions onElement(const StepCase& c) {
     f.curves.resize(static_cast<std::size_t>(r) + 1);
     const LobattoBasis lobatto(r);
     std::vector<double> value(static_cast<std::size_t>(r) + 1), slope(value);
-    const int middle = problem.mesh.elements() / 2;
+    const int middle = line ? line->mesh.elements() / 2 : 0;
+    const double size =
+        plane ? r * plane->problem->grid().x.length / plane->problem->grid().nx : line->mesh.size(middle);
     for (int i = 0; i <= points; ++i) {
         const double xi = static_cast<double>(i) / points;
-        if (problem.functions)
-            value = {1 - problem.functions->value(middle, xi), problem.functions->value(middle, xi)};
+        if (line && line->functions)
+            value = {1 - line->functions->value(middle, xi), line->functions->value(middle, xi)};
         else
             lobatto.at(xi, value.data(), slope.data());
         for (std::size_t a = 0; a < value.size(); ++a) {
@@ -88,8 +92,8 @@ SpaceFunctions onElement(const StepCase& c) {
     f.nodes = rule.c;
     f.weights = rule.b;
     f.text = std::to_string(r + 1) + " functions, " + std::to_string(rule.size()) +
-             (rule.size() == 1 ? " node" : " nodes") + ", on an element of " +
-             formatNumber(problem.mesh.size(middle), 3);
+             (rule.size() == 1 ? " node" : " nodes") + ", on an element of " + formatNumber(size, 3) +
+             (plane && plane->problem->grid().dimension() > 1 ? " along x" : "");
     return f;
 }
 
@@ -106,6 +110,9 @@ StepEquations field() {
     StepEquations e;
     e.family = "field";
     e.matrix.make = ofSlab;
+    e.matrix.of = e.actions.of = Takes::only<ScalarField>();
+    e.matrix.instead = "solved without a matrix, each mode of the mesh for itself";
+    e.actions.instead = "made of modes whose action is not evaluated by itself";
     e.matrixTitle = "KKT matrix of a slab";
     e.blockName = blockName;
     e.extent = [](const System& system, int cells, int) {

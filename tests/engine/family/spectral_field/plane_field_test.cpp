@@ -8,7 +8,7 @@
 #include <random>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/plane_leapfrog.hpp"
+#include "engine/family/field/plane_leapfrog.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/model/plane_field/problem.hpp"
 #include "engine/scene/write/codec.hpp"
@@ -250,7 +250,7 @@ private slots:
              {R"("space": {"type": "fourier-field", "degree": 2, "nodes": "exact"})",
               R"("space": {"type": "fourier-field", "degree": 2, "modes": 32})",
               R"("space": {"type": "fourier-field", "degree": 2, "nodes": 128})",
-              R"("scheme": "multisymplectic-2")", R"("baseline": "pseudospectral-splitting")"}) {
+              R"("scheme": "multisymplectic-3")", R"("baseline": "pseudospectral-splitting")"}) {
             const std::string text = refusal(scheme);
             qInfo("%s", text.c_str());
             QVERIFY(!text.empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/baseline/plane_leapfrog.hpp"
+#include "engine/family/field/plane_leapfrog.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/text/text.hpp"
 #include "engine/family/field_march.hpp"
 #include "engine/model/plane_field/problem.hpp"
 
@@ -121,9 +122,11 @@ std::unique_ptr<Integrator> makePlaneLeapfrog(const System& system, double step)
     return std::make_unique<PlaneLeapfrog>(system.part<PlaneField>().problem, step);
 }
 
-double planeLeapfrogLimit(const PlaneFieldProblem& problem, const double* u) {
+double longestPlaneStep(const PlaneFieldProblem& problem, const double* u, int degree, double eigenvalue,
+                        double limit) {
+    if (std::isinf(limit)) return limit;
     const wave::Grid& grid = problem.grid();
-    const double dx = grid.x.length / grid.nx, dy = grid.y.length / grid.ny;
+    const double dx = degree * grid.x.length / grid.nx, dy = degree * grid.y.length / grid.ny;
     std::vector<double> low, high;
     double stiffness = 0;
     for (std::size_t c = 0; c < problem.components(); ++c) {
@@ -135,7 +138,23 @@ double planeLeapfrogLimit(const PlaneFieldProblem& problem, const double* u) {
     }
     const double curvature = std::max(0.0, problem.potential().largestCurvature(low, high)),
                  perY = grid.dimension() > 1 ? 1 / (dy * dy) : 0;
-    return 2 / std::sqrt(4 * stiffness * (1 / (dx * dx) + perY) + curvature);
+    return limit / std::sqrt(eigenvalue * stiffness * (1 / (dx * dx) + perY) + curvature);
+}
+
+double planeLeapfrogLimit(const PlaneFieldProblem& problem, const double* u) {
+    return longestPlaneStep(problem, u, 1, 4, 2);
+}
+
+void checkPlaneStep(const PlaneFieldProblem& problem, double longest, const std::string& name,
+                    const SchemeCase& scheme, Findings& findings) {
+    constexpr double slack = 1 + 1e-12;  // a step at the limit itself is stable
+    if (scheme.allowsUnstable || !(scheme.step > longest * slack)) return;
+    const wave::Grid& grid = problem.grid();
+    findings.error("/step",
+                   formatNumber(scheme.step) + " is beyond the stability limit " + formatNumber(longest, 4) +
+                       " of " + name + " on this mesh of " + std::to_string(grid.nx) +
+                       (grid.dimension() > 1 ? " x " + std::to_string(grid.ny) : std::string()) + " nodes",
+                   "a smaller step, fewer cells, or \"allow_unstable\": true", "field-step");
 }
 
 }  // namespace extremal

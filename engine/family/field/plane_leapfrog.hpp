@@ -9,8 +9,11 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
+#include "engine/family/family.hpp"
 #include "engine/integrator/integrator.hpp"
+#include "engine/model/plane_field/problem.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal {
@@ -18,5 +21,13 @@ namespace extremal {
 std::unique_ptr<Integrator> makePlaneLeapfrog(const System& system, double step);
 /// The longest stable step, with the largest W'' between the extremes of u.
 double planeLeapfrogLimit(const PlaneFieldProblem& problem, const double* u);
+
+/// The same of elements of a degree: `eigenvalue`, the largest of those of length 1 along one axis; `limit`,
+/// the largest stable step times frequency, infinite if every one is stable.
+double longestPlaneStep(const PlaneFieldProblem& problem, const double* u, int degree, double eigenvalue,
+                        double limit);
+/// Says that the step of a scheme is longer.
+void checkPlaneStep(const PlaneFieldProblem& problem, double longest, const std::string& name,
+                    const SchemeCase& scheme, Findings& findings);
 
 }  // namespace extremal
