@@ -30,11 +30,8 @@ public:
     void toModes(const double* nodes, double* row) { grid_.toModes(nodes, row); }
     void toNodes(const double* row, double* nodes) { grid_.toNodes(row, nodes); }
     void toPoints(const double* row, double* values) { grid_.toPoints(row, values); }
-    void fromPoints(double* values, double* row) {
-        const double scale = 1 / static_cast<double>(points());
-        for (std::size_t i = 0; i < points(); ++i) values[i] *= scale;
-        grid_.fromPoints(values, row);
-    }
+    double pointShare() const { return 1 / static_cast<double>(points()); }
+    void fromPoints(const double* values, double* row) { grid_.fromPoints(values, row); }
     void fromMomenta(const double* momenta, double* row) {
         grid_.toModes(momenta, row);
         for (std::size_t i = 0; i < numbers(); ++i) row[i] /= mass_;
@@ -190,10 +187,11 @@ private:
         return (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
     void forceToModes(double* row) {
+        const double share = grid_.pointShare();
         for (std::size_t c = 0; c < components_; ++c) {
             double* const values = values_.data() + c * stride_;
             const double* const slope = slope_.data() + c * stride_;
-            for (std::size_t i = 0; i < points_; ++i) values[i] = shifts_[c] * values[i] - slope[i];
+            for (std::size_t i = 0; i < points_; ++i) values[i] = share * (shifts_[c] * values[i] - slope[i]);
             grid_.fromPoints(values, row + c * grid_.numbers());
         }
     }

@@ -42,6 +42,7 @@ public:
     void toModes(const double* nodes, double* row);
     void toNodes(const double* row, double* nodes);
     void toPoints(const double* row, double* values);
+    double pointShare() const { return 1; }  ///< what values are to be multiplied with before fromPoints()
     /// The integrals of the modes times a function with these values.
     void fromPoints(const double* values, double* row);
     void fromMomenta(const double* momenta, double* row);
