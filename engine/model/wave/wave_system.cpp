@@ -9,6 +9,7 @@
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/parts/start_remark.hpp"
 #include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/collapse.hpp"
 #include "engine/model/wave/interaction.hpp"
@@ -117,6 +118,21 @@ void useCoupling(System& s, const Shared& h, Coupling coupling) {
     };
 }
 
+/// A typed wave function with an interaction, whose norm is that of the cloud, is scaled to 1 by default.
+StartRemark::Remark remarkOnNorm(const Shared& h, const Coupling& coupling, const Settings& initial) {
+    constexpr double slack = 1e-6;
+    const Value* const psi = initial.find("psi");
+    if (!psi || !psi->isObject() || psi->find("packet") || !initial.flag("normalise")) return {};
+    const auto c =
+        wave::makePacket(*psi, "/psi", false, h, {{"hbar", h->hbar()}, {"m", h->mass()}}, coupling);
+    const double norm = squaredNorm(c.data(), static_cast<int>(c.size()));
+    if (std::abs(norm - 1) <= slack) return {};
+    return {"/normalise",
+            "scales psi from the norm ∫|ψ|² = " + formatNumber(norm, 4) +
+                " to 1, and with an interaction that is another motion",
+            "\"normalise\": false, or a psi of norm 1"};
+}
+
 }  // namespace
 
 System makeWaveSystem(const Settings& settings, const std::function<Shared(const Settings&)>& make) {
@@ -148,10 +164,13 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
         const double* numbers = reinterpret_cast<const double*>(c.data());
         return std::vector<double>(numbers, numbers + 2 * c.size());
     };
-    if (coupling.isThere())
+    if (coupling.isThere()) {
         useCoupling(s, h, coupling);
-    else if (!h->isTimeDependent() && h->size() <= Eigenstates::denseLimit)
+        s.parts.set(StartRemark{
+            [h, coupling](const Settings& initial) { return remarkOnNorm(h, coupling, initial); }});
+    } else if (!h->isTimeDependent() && h->size() <= Eigenstates::denseLimit) {
         s.exact = [h](const State& initial) { return exactWave(h, initial); };
+    }
     return s;
 }
 

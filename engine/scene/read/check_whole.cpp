@@ -11,6 +11,7 @@
 #include "engine/family/parts/steps.hpp"
 #include "engine/mechanism/mechanism_start.hpp"
 #include "engine/model/parts/force.hpp"
+#include "engine/model/parts/start_remark.hpp"
 #include "engine/model/parts/varied_numbers.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/phase/monitored.hpp"
@@ -363,6 +364,10 @@ bool checkStart(Reader& reader, ResolvedScene& scene) {
             isAtRest ? std::string() : projectionNote(*scene.system, given, scene.initial);
         if (!note.empty())
             reader.warning("/initial", note, "velocities along the constraints", {}, "mechanisms");
+        if (const auto* const remark = scene.system->parts.find<StartRemark>()) {
+            const StartRemark::Remark made = remark->of(scene.scene.initial.given);
+            if (!made.message.empty()) reader.warning("/initial" + made.pointer, made.message, made.hint);
+        }
         return true;
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error(prefix + p.pointer, p.message, p.hint);
