@@ -260,7 +260,11 @@ Picture pictureOf(const Formula& formula, const Constraint* constraint) {
     if (names.size() > 2)
         if (const auto found = bodiesOf({names[0], names[1]}); found && found->size() == 1)
             return bodies(*found, {});
-    return point(names.size());
+    if (names.size() <= 2 || !angles.empty()) return point(names.size());
+    std::vector<TypedBody> beads;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        beads.push_back({.label = names[i], .x = static_cast<int>(i)});
+    return bodies(beads, {});
 }
 
 std::vector<std::pair<int, int>> planesOf(const Formula& formula) {

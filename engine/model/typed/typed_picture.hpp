@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What the stage shows of a system of which nothing is known but the names of its coordinates:
 ///
-///     theta, phi_1, ...        a chain of rods from the downward vertical, of the lengths l, or l1, l2, ...,
-///     of
-///                              the parameters, else 1
+///     theta, phi_1, ...        a chain of rods from the downward vertical, of the lengths l, or l1, l2, ..,
+///                              of the parameters, else 1
 ///     x, theta, ...            the same, hung up at (x, 0): a cart
-///     x1, y1, x2, y2, ...      a body for each number or word after x, y and z, in the plane or in space (z
-///     up) x1, x2, ...              bodies on a line r, phi                   a body in polar coordinates;
-///     r1, phi1, ... several
+///     x1, y1, x2, y2, ...      a body for each number or word after x, y and z, in the plane or in space,
+///                              z up
+///     x1, x2, ...              bodies on a line
+///     r, phi                   a body in polar coordinates; r1, phi1, ... several
 ///
 /// A constraint on bodies with x, y and z that keeps the distance of two of them, or of one from a fixed
 /// point, is a rod.
 ///
-/// Of anything else the first two coordinates are a body, by their names, or a point in the plane, or one on
-/// a line. The trail is that
-/// of the first body, of a chain that of its end.
+/// Of anything else the first two coordinates are a body, by their names; two, and those with angles among
+/// them, are a point in the plane, and one or more than two others points on a line. The trail is that of the
+/// first body, of a chain that of its end.
 #pragma once
 
 #include <functional>

@@ -99,6 +99,14 @@ private slots:
         QCOMPARE(other.bodies.size(), std::size_t{1});
         QVERIFY(isNear(other.bodies[0], {1, 2, 0}));
     }
+    /// Balls a, b, c, d of a cradle, or the q_i of a chain: the first two are not the place of one.
+    void manyLengthsArePointsOnALine() {
+        const Drawn cradle = drawn({"a", "b", "c", "d"}, {-0.5, 0.2, 0.4, 0.6});
+        QCOMPARE(cradle.bodies.size(), std::size_t{4});
+        QVERIFY(isNear(cradle.bodies[0], {-0.5, 0, 0}) && isNear(cradle.bodies[3], {0.6, 0, 0}));
+        QCOMPARE(drawn({"q1", "q2", "q3", "q4", "q5"}, {1, 2, 3, 4, 5}).bodies.size(), std::size_t{5});
+        QVERIFY(isNear(drawn({"q1", "q2"}, {1, 2}).bodies.at(0), {1, 2, 0}));
+    }
 };
 
 EXTREMAL_TEST(PictureTest)
