@@ -14,8 +14,8 @@
 /// spectral in space. The sum is exact for W of degree p where M >= p N/2; then S_d does not change under any
 /// translation, and momentum is conserved to round-off. 2 s real transforms per iteration.
 ///
-/// Tensor elements (model/field/element_grid.hpp) with any rule in space and in time, both of Lagrangian and
-/// of the mass: on an axis of one element size. 4 s products of matrices per iteration.
+/// Tensor elements of one size along each axis (model/field/element_grid.hpp), with any rule in time, and any
+/// in space that sees the mass of every function. Four products of matrices per node in time and iteration.
 #pragma once
 
 #include <memory>

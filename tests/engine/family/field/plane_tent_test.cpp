@@ -135,35 +135,49 @@ const std::vector<RulePair>& rulePairs() {
     return pairs;
 }
 
+/// Two unlike components with unlike speeds on cells of unlike sides.
+struct CoupledCase {
+    static constexpr double h = 0.04;
+    System system = plane(coupled, {0, 3, 12}, {0, 5, 12}, {"u", "v"}, Value::Array{1.0, 1.3});
+    Discretization d;
+    std::unique_ptr<Integrator> integrator;
+    Cells cells;
+
+    explicit CoupledCase(int index) : CoupledCase(rulePairs()[static_cast<std::size_t>(index)]) {}
+    explicit CoupledCase(const RulePair& pair)
+        : d(tents(pair.space, pair.time, pair.degree)),
+          integrator(makeIntegrator(system, d, {0, h})),
+          cells{problemOf(system),
+                pair.degree,
+                ruleIn(d.quadrature, "space", pair.degree),
+                ruleIn(d.quadrature, "time", 1),
+                h,
+                0.3} {}
+};
+
+void addRulePairs() {
+    QTest::addColumn<int>("index");
+    for (std::size_t i = 0; i < rulePairs().size(); ++i)
+        QTest::newRow(rulePairs()[i].name) << static_cast<int>(i);
+}
+
 }  // namespace
 
 class PlaneTentTest : public QObject {
     Q_OBJECT
 private slots:
-    void cells_data() {
-        QTest::addColumn<int>("index");
-        for (std::size_t i = 0; i < rulePairs().size(); ++i)
-            QTest::newRow(rulePairs()[i].name) << static_cast<int>(i);
-    }
-    /// Two unlike components with unlike speeds on cells of unlike sides: the levels of a run are stationary
-    /// for the sum over all cells, and u_t is the velocity of its momenta.
-    void levelsAreStationary_data() { cells_data(); }
+    /// The levels of a run are stationary for the sum over all cells.
+    void levelsAreStationary_data() { addRulePairs(); }
     void levelsAreStationary() {
         QFETCH(int, index);
-        const RulePair& pair = rulePairs()[static_cast<std::size_t>(index)];
-        const System system = plane(coupled, {0, 3, 12}, {0, 5, 12}, {"u", "v"}, Value::Array{1.0, 1.3});
-        const Discretization d = tents(pair.space, pair.time, pair.degree);
-        const double h = 0.04;
-        const auto integrator = makeIntegrator(system, d, {0, h});
-        const PlaneFieldProblem& problem = problemOf(system);
-        const Cells cells{
-            problem, pair.degree, ruleIn(d.quadrature, "space", pair.degree), ruleIn(d.quadrature, "time", 1),
-            h,       0.3};
+        const CoupledCase made(index);
+        const Cells& cells = made.cells;
+        const PlaneFieldProblem& problem = cells.problem;
         std::vector<Row> levels;
-        State state = random(system, 0.5, 7);
+        State state = random(made.system, 0.5, 7);
         for (int k = 0; k < 4; ++k) {
             levels.push_back(state.x);
-            QCOMPARE(advance(*integrator, state).outcome, Outcome::converged);
+            QCOMPARE(advance(*made.integrator, state).outcome, Outcome::converged);
         }
         Row sum(problem.size(), 0), terms(problem.size(), 0);
         for (int l = 1; l < 3; ++l)
@@ -182,21 +196,15 @@ private slots:
         qInfo("%.1e", most);
         QVERIFY(most < 1e-12);
     }
-    /// Two variations, moved by the tangent map, on a box of 2 x 2 or more cells and two slabs.
-    void formOverTheBoundaryOfABox_data() { cells_data(); }
+    /// Two variations, moved by the tangent map, on a box of 2 x 3 or more cells and three slabs.
+    void formOverTheBoundaryOfABox_data() { addRulePairs(); }
     void formOverTheBoundaryOfABox() {
         QFETCH(int, index);
-        const RulePair& pair = rulePairs()[static_cast<std::size_t>(index)];
-        const System system = plane(coupled, {0, 3, 12}, {0, 5, 12}, {"u", "v"}, Value::Array{1.0, 1.3});
-        const Discretization d = tents(pair.space, pair.time, pair.degree);
-        const double h = 0.04;
-        const auto integrator = makeIntegrator(system, d, {0, h});
-        const PlaneFieldProblem& problem = problemOf(system);
+        const CoupledCase made(index);
+        const Cells& cells = made.cells;
+        const PlaneFieldProblem& problem = cells.problem;
         const std::size_t n = problem.size(), slabs = 3;
-        const Cells cells{
-            problem, pair.degree, ruleIn(d.quadrature, "space", pair.degree), ruleIn(d.quadrature, "time", 1),
-            h,       0.3};
-        State state = random(system, 0.5, 11);
+        State state = random(made.system, 0.5, 11);
         std::mt19937 generator(2);
         std::uniform_real_distribution<double> uniform(-1, 1);
         Row both(4 * n);
@@ -204,8 +212,8 @@ private slots:
         std::vector<Row> levels{state.x}, first{Row(both.begin(), both.begin() + static_cast<long>(n))},
             second{Row(both.begin() + static_cast<long>(2 * n), both.begin() + static_cast<long>(3 * n))};
         for (std::size_t k = 0; k < slabs; ++k) {
-            QCOMPARE(advance(*integrator, state).outcome, Outcome::converged);
-            QVERIFY(integrator->applyTangent(both));
+            QCOMPARE(advance(*made.integrator, state).outcome, Outcome::converged);
+            QVERIFY(made.integrator->applyTangent(both));
             levels.push_back(state.x);
             first.emplace_back(both.begin(), both.begin() + static_cast<long>(n));
             second.emplace_back(both.begin() + static_cast<long>(2 * n),
@@ -228,8 +236,8 @@ private slots:
                                                    y = static_cast<int>(node) / problem.grid().nx;
                                          isIn[l][node] = 1;
                                          isOnBoundary[l][node] = l == 0 || l == slabs || x == 0 || y == 0 ||
-                                                                 x == wide * pair.degree ||
-                                                                 y == high * pair.degree;
+                                                                 x == wide * cells.degree ||
+                                                                 y == high * cells.degree;
                                      });
         double sum = 0, terms = 0, inside = 0;
         for (std::size_t l = 0; l <= slabs; ++l)
@@ -246,7 +254,7 @@ private slots:
         QVERIFY(terms > 0 && std::abs(sum) < 1e-13 * terms);
         QVERIFY(inside < 1e-12 * terms);
     }
-    void chargeIsKeptByEveryRule_data() { cells_data(); }
+    void chargeIsKeptByEveryRule_data() { addRulePairs(); }
     void chargeIsKeptByEveryRule() {
         QFETCH(int, index);
         const RulePair& pair = rulePairs()[static_cast<std::size_t>(index)];
@@ -274,14 +282,12 @@ private slots:
         qInfo("%.1e; of components of unlike W %.1e", kept, lost);
         QVERIFY(kept < 1e-12 && lost > 1e-4);
     }
-    void theStepIsSymplectic_data() { cells_data(); }
+    void theStepIsSymplectic_data() { addRulePairs(); }
     void theStepIsSymplectic() {
         QFETCH(int, index);
-        const RulePair& pair = rulePairs()[static_cast<std::size_t>(index)];
-        const System system = plane(coupled, {0, 3, 12}, {0, 5, 12}, {"u", "v"}, Value::Array{1.0, 1.3});
-        const auto integrator = makeIntegrator(system, tents(pair.space, pair.time, pair.degree), {0, 0.04});
-        State state = random(system, 0.5, 9);
-        const std::size_t n = problemOf(system).size();
+        const CoupledCase made(index);
+        State state = random(made.system, 0.5, 9);
+        const std::size_t n = made.cells.problem.size();
         std::mt19937 generator(4);
         std::uniform_real_distribution<double> uniform(-1, 1);
         Row both(4 * n);
@@ -297,8 +303,8 @@ private slots:
         };
         const double before = form().first;
         for (int k = 0; k < 20; ++k) {
-            QCOMPARE(advance(*integrator, state).outcome, Outcome::converged);
-            QVERIFY(integrator->applyTangent(both));
+            QCOMPARE(advance(*made.integrator, state).outcome, Outcome::converged);
+            QVERIFY(made.integrator->applyTangent(both));
         }
         const auto [after, terms] = form();
         qInfo("%.1e", std::abs(after - before) / terms);
