@@ -12,6 +12,7 @@
 #include "engine/family/parts/steps.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/quadrature/tensor.hpp"
 #include "engine/scene/read/json.hpp"
 #include "engine/scene/resolve.hpp"
 
@@ -79,9 +80,26 @@ QString innerText(const SchemeSpec& spec) {
     if (spec.kind == SchemeSpec::Kind::named)
         return QStringLiteral("scheme ") + QString::fromStdString(spec.named);
     QString text = QString::fromStdString(spec.space.type);
-    if (spec.space.find("degree")) text += QString(" %1").arg(spec.space.integer("degree"));
+    if (const Value* const degree = spec.space.find("degree"); degree && degree->isObject()) {
+        QStringList parts;  // in space, in time
+        for (const auto& [direction, own] : degree->asObject())
+            if (own.isNumber()) parts << shortNumber(own.asNumber());
+        text += ' ' + parts.join(", ");
+    } else if (degree) {
+        text += QString(" %1").arg(spec.space.integer("degree"));
+    }
     if (const int cells = spec.space.integer("cells"); cells > 1)
         text += QStringLiteral(" (%1 cells)").arg(cells);
+    if (isTensorRule(spec.quadrature)) {
+        QStringList parts;
+        for (const char* direction : tensorParts) {
+            const Settings own = tensorPart(spec.quadrature, direction);
+            const Value* const nodes = own.find("nodes");
+            parts << ruleTitle(own.type) +
+                         (nodes && nodes->isNumber() ? QString(" %1").arg(own.integer("nodes")) : QString());
+        }
+        return text + QStringLiteral(" × ") + parts.join(", ");
+    }
     text += QStringLiteral(" × ") + ruleTitle(spec.quadrature.type);
     if (const Value* nodes = spec.quadrature.find("nodes"); nodes && nodes->isNumber())
         text += QString(" %1").arg(spec.quadrature.integer("nodes"));

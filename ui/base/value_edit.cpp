@@ -48,10 +48,15 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
         });
     } else if (info.type == FieldType::integer) {
         input = spin_ = new QSpinBox;
-        spin_->setRange(asInt(info.min, -1000000000), asInt(info.max, 1000000000));
+        const int least = asInt(info.min, -1000000000);
+        // A key that is left out: a word below the least number.
+        spin_->setRange(info.isOptional ? least - 1 : least, asInt(info.max, 1000000000));
+        if (info.isOptional) spin_->setSpecialValueText(tr("default"));
         spin_->setKeyboardTracking(false);
         spin_->setAlignment(Qt::AlignRight);
-        connect(spin_, &QSpinBox::valueChanged, this, [this](int i) { emit edited(Value(i)); });
+        connect(spin_, &QSpinBox::valueChanged, this, [this](int i) {
+            emit edited(info_.isOptional && i == spin_->minimum() ? Value() : Value(i));
+        });
     } else {
         makeText();
         input = text_;
@@ -147,6 +152,7 @@ void ValueEdit::show(const Value& value) {
     const QSignalBlocker b1(check_), b2(spin_), b3(choice_);
     if (check_) check_->setChecked(value.isBool() && value.asBool());
     if (spin_ && value.isNumber()) spin_->setValue(static_cast<int>(value.asNumber()));
+    if (spin_ && !value.isNumber() && info_.isOptional) spin_->setValue(spin_->minimum());
     if (choice_) choice_->setCurrentText(fieldText(value));
     if (!text_) return;
     const QString text = info_.type == FieldType::constants     ? constantsText(value)

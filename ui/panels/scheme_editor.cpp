@@ -246,6 +246,8 @@ void SchemeEditor::rebuild() {
         for (const CatalogItem& item : quadratureCatalog())
             if (fittingRule(item.id, s.space) == item.id)
                 rule_->addItem(QString::fromStdString(item.title), QString::fromStdString(item.id));
+        // A rule for each direction is not one to choose, but may be what the scheme has.
+        if (isTensorRule(shownRule())) rule_->addItem(ruleTitle(shownRule().type), QString("product"));
         if (const CatalogItem* space = itemNamed(spaceCatalog(), s.space.type))
             addFields(fields, space->parameters, place() + "/space");
         if (const CatalogItem* rule = itemNamed(quadratureCatalog(), shownRule().type))

@@ -3,6 +3,7 @@
 #include <QTest>
 
 #include "engine/scene/read/json.hpp"
+#include "engine/scene/write/codec.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/base/format.hpp"
 
@@ -21,6 +22,21 @@ class FormatTest : public QObject {
         // What is not closed is an entry still.
         QVERIFY(formulas("sin(1; 2") == parseJson(R"~(["sin(1; 2"])~"));
         QVERIFY(formulas("1); 2") == parseJson(R"~(["1)",2])~"));
+    }
+    /// Degrees and rules of both directions, under the name of a scheme.
+    void tensorElementsSayTheirDegreesAndRules() {
+        const auto text = [](const std::string& scheme) {
+            const ReadScene read = readScene(
+                R"J({"extremal":1,"model":{"type":"field"},"initial":{"u":"exp(-x^2)"},"time":{"end":1},"schemes":[{"step":0.01,)J" +
+                scheme + "}]}");
+            return schemeText(read.resolved->scene.schemes[0]);
+        };
+        QCOMPARE(
+            text(
+                R"("space":{"type":"tent","degree":{"space":2,"time":1}},"quadrature":{"space":{"type":"gauss","nodes":3},"time":"trapezoid"})"),
+            ruleTitle("gauss").prepend("tent 2, 1 × ") + " 3, " + ruleTitle("trapezoid"));
+        QCOMPARE(text(R"("space":{"type":"tent","degree":2})"),
+                 QString("tent 2 × %1 3, %1 2").arg(ruleTitle("gauss")));
     }
 };
 

@@ -3,6 +3,7 @@
 
 #include <QLineEdit>
 #include <QSignalSpy>
+#include <QSpinBox>
 #include <QTest>
 
 #include <memory>
@@ -52,6 +53,24 @@ private slots:
         connect(edit.get(), &ValueEdit::edited, this, [&] { ++submitted; });
         edit.reset();
         QCOMPARE(submitted, 0);
+    }
+    /// A count that may be left out is no number until one is given, and none again.
+    void aCountThatIsLeftOutIsShownAsSuch() {
+        FieldInfo info = integerField("cells", "N", 2, 100, nullptr, "");
+        info.isOptional = true;
+        ValueEdit edit(info);
+        edit.show(Value());
+        auto* const spin = edit.findChild<QSpinBox*>();
+        QCOMPARE(spin->text(), QStringLiteral("default"));
+        QSignalSpy edited(&edit, &ValueEdit::edited);
+        spin->stepUp();
+        QCOMPARE(edited[0][0].value<Value>().asNumber(), 2.0);
+        spin->stepDown();
+        QVERIFY(edited[1][0].value<Value>().isNull());
+        edit.show(Value(7.0));
+        QCOMPARE(spin->text(), QStringLiteral("7"));
+        info.isOptional = false;
+        QCOMPARE(ValueEdit(info).findChild<QSpinBox*>()->minimum(), 2);
     }
 };
 
