@@ -105,18 +105,19 @@ std::optional<Properties> describeOnPlane(const Discretization& d, const System&
     return p;
 }
 
-double longestPlaneStep(const Discretization& d, const PlaneFieldProblem& problem, const double* u) {
-    const TentDegrees degrees = tentDegrees(d.space);
-    return longestPlaneStep(
-        problem, u, degrees.space,
-        largestSpatialEigenvalue(degrees.space, ruleIn(d.quadrature, "space", degrees.space)),
-        timeLimit(timeTable(d)));
+double longestPlaneStep(const Discretization& d, const PlaneFieldProblem& problem, const double* u,
+                        double steps) {
+    const int degree = tentDegrees(d.space).space;
+    return longestPlaneStep(problem, u, degree,
+                            largestSpatialEigenvalue(degree, ruleIn(d.quadrature, "space", degree)),
+                            timeLimit(timeTable(d), steps));
 }
 
 void checkPlaneTent(const SchemeCase& scheme, Findings& findings) {
     const PlaneFieldProblem& problem = *scheme.system.part<PlaneField>().problem;
     if (refusalOnPlane(scheme.discretization, problem)) return;  // said already
-    const double longest = longestPlaneStep(scheme.discretization, problem, scheme.initial.x.data());
+    const double steps = std::abs(scheme.end - scheme.initial.t) / scheme.step,
+                 longest = longestPlaneStep(scheme.discretization, problem, scheme.initial.x.data(), steps);
     checkPlaneStep(problem, longest, describe(scheme.discretization).knownAs, scheme, findings);
 }
 

@@ -9,6 +9,7 @@
 /// an axis, z: the limit of the rule in time (dispersion.hpp).
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,8 +33,10 @@ std::string mismatchOnPlane(const Discretization& d, const System& system);
 /// are best: of order 4. Meshes stay as they are when steps are refined, so that orders are those in time.
 std::optional<Properties> describeOnPlane(const Discretization& d, const System& system);
 
-/// The longest stable step, with the largest W'' between the extremes of u; infinite: there is none.
-double longestPlaneStep(const Discretization& d, const PlaneFieldProblem& problem, const double* u);
+/// The longest step that is stable for so many steps, with the largest W'' between the extremes of u;
+/// infinite: there is none.
+double longestPlaneStep(const Discretization& d, const PlaneFieldProblem& problem, const double* u,
+                        double steps = std::numeric_limits<double>::infinity());
 
 void checkPlaneTent(const SchemeCase& scheme, Findings& findings);
 
