@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/wave/measures.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -88,6 +89,25 @@ Measure widthMeasure(const Shared& h) {
     return m;
 }
 
+/// Of periodic domains, whose copies a wave meets beyond its edges.
+Measure edgeMeasure(const Shared& h) {
+    return {"edge", {{"edge", "", "|ψ| at the edges / max |ψ|", ""}}, -1, [h](const State&) {
+                return [h, work = std::vector<Complex>(static_cast<std::size_t>(h->size()))](
+                           double, const double* x, double* values) mutable {
+                    h->toNodes(coefficients(x), work.data());
+                    const std::size_t nx = h->x().size(), ny = work.size() / nx;
+                    double edge = 0, most = 0;
+                    for (std::size_t j = 0; j < work.size(); ++j) {
+                        const double density = std::norm(work[j]);
+                        const bool isAcross = ny > 1 && (j / nx == 0 || j / nx + 1 == ny);
+                        most = std::max(most, density);
+                        if (isAcross || j % nx == 0 || j % nx + 1 == nx) edge = std::max(edge, density);
+                    }
+                    values[0] = std::sqrt(edge / most);
+                };
+            }};
+}
+
 Measure angularMomentumMeasure(const Shared& h) {
     return {"angular-momentum", {{"angular_momentum", "", "⟨L⟩", ""}}, -1, [h](const State&) {
                 return [L = AngularMomentum(h)](double, const double* x, double* values) mutable {
@@ -116,7 +136,10 @@ Measure vorticesMeasure(const Shared& h) {
 std::vector<Measure> waveMeasures(const Shared& h) {
     std::vector<Measure> all{normMeasure(h), momentumMeasure(h), positionMeasure(h), currentMeasure(h),
                              tailMeasure(h)};
-    if (h->isPeriodic()) all.push_back(widthMeasure(h));
+    if (h->isPeriodic()) {
+        all.push_back(widthMeasure(h));
+        all.push_back(edgeMeasure(h));
+    }
     if (h->dimension() == 2) {
         all.push_back(angularMomentumMeasure(h));
         all.push_back(vorticesMeasure(h));

@@ -127,6 +127,25 @@ private slots:
             QVERIFY(std::abs(centre[0] - s[0]) < 1e-8 && std::abs(centre[1] - s[1]) < 1e-8);
         }
     }
+    /// What a Gaussian has at the last node, whichever axis that is on.
+    void theEdgeIsWhereTheDomainEnds() {
+        for (const bool isAlongX : {true, false}) {
+            QString text = R"J({"extremal":1,"model":{"type":"schrodinger-2d","potential":"0",
+                "domain":[-8,8],"domain_y":[-8,8],"modes":64,"modes_y":32},
+                "initial":{"psi":{"re":"exp(-((x-%1)^2+(y-%2)^2)/2)"}},"time":{"end":1},"observe":["edge"],
+                "schemes":[{"step":0.1,"baseline":"strang"}]})J";
+            text = text.arg(isAlongX ? 2 : 0).arg(isAlongX ? 0 : 2);
+            const ResolvedScene scene = sceneOf(text.toStdString());
+            const double last = 8 - (isAlongX ? 16.0 / 64 : 16.0 / 32),
+                         expected = std::exp(-(last - 2) * (last - 2) / 2);
+            double edge = NAN;
+            for (const Measure& measure : scene.system->measures)
+                if (measure.observable == "edge")
+                    measure.bind(scene.initial)(0, scene.initial.x.data(), &edge);
+            qInfo("%.6e, %.6e", edge, expected);
+            QVERIFY(std::abs(edge / expected - 1) < 1e-6);
+        }
+    }
     /// a sech(a x) exp(i v x), of eigenvalue z = v + i a: when two of them have met, each is shifted by
     /// ln(|z_1 - z_2*|^2/|z_1 - z_2|^2)/a in the direction that it runs in.
     void solitonsAreShiftedWhenTheyMeet() {

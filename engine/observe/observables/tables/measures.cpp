@@ -48,6 +48,9 @@ std::vector<ObservableEntry> measures() {
             "where "
             "its density is above a thousandth of the largest.",
             "a wave function in the plane"),
+        row("edge", "edge",
+            "The largest |ψ| at the edges of the domain over the largest of all: is the domain wide enough?",
+            "a periodic wave function"),
         row("width", "width", "Mean squares of the distances from the middle of the domain, along x and y.",
             "a periodic wave function"),
         // The field equation of a periodic field keeps it, and a scheme on a mesh nearly.
