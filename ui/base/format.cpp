@@ -69,6 +69,16 @@ QStringList partsOf(const QString& text, char16_t separator) {
     return parts;
 }
 
+/// "Gauss 3 (2 panels)", of a rule in one direction.
+QString ruleText(const Settings& rule) {
+    QString text = ruleTitle(rule.type);
+    if (const Value* nodes = rule.find("nodes"); nodes && nodes->isNumber())
+        text += QString(" %1").arg(rule.integer("nodes"));
+    if (const int panels = rule.integer("panels"); panels > 1)
+        text += QStringLiteral(" (%1 panels)").arg(panels);
+    return text;
+}
+
 QString innerText(const SchemeSpec& spec) {
     if (spec.kind == SchemeSpec::Kind::baseline) {
         const BaselineEntry* entry = findBaseline(spec.baseline.type);
@@ -81,31 +91,22 @@ QString innerText(const SchemeSpec& spec) {
         return QStringLiteral("scheme ") + QString::fromStdString(spec.named);
     QString text = QString::fromStdString(spec.space.type);
     if (const Value* const degree = spec.space.find("degree"); degree && degree->isObject()) {
-        QStringList parts;  // in space, in time
-        for (const auto& [direction, own] : degree->asObject())
-            if (own.isNumber()) parts << shortNumber(own.asNumber());
+        QStringList parts;
+        for (const char* direction : tensorParts) {
+            const Value* const own = degree->find(direction);
+            parts << shortNumber(own && own->isNumber() ? own->asNumber() : 1);
+        }
         text += ' ' + parts.join(", ");
     } else if (degree) {
         text += QString(" %1").arg(spec.space.integer("degree"));
     }
     if (const int cells = spec.space.integer("cells"); cells > 1)
         text += QStringLiteral(" (%1 cells)").arg(cells);
-    if (isTensorRule(spec.quadrature)) {
-        QStringList parts;
-        for (const char* direction : tensorParts) {
-            const Settings own = tensorPart(spec.quadrature, direction);
-            const Value* const nodes = own.find("nodes");
-            parts << ruleTitle(own.type) +
-                         (nodes && nodes->isNumber() ? QString(" %1").arg(own.integer("nodes")) : QString());
-        }
-        return text + QStringLiteral(" × ") + parts.join(", ");
-    }
-    text += QStringLiteral(" × ") + ruleTitle(spec.quadrature.type);
-    if (const Value* nodes = spec.quadrature.find("nodes"); nodes && nodes->isNumber())
-        text += QString(" %1").arg(spec.quadrature.integer("nodes"));
-    if (const int panels = spec.quadrature.integer("panels"); panels > 1)
-        text += QStringLiteral(" (%1 panels)").arg(panels);
-    return text;
+    text += QStringLiteral(" × ");
+    if (!isTensorRule(spec.quadrature)) return text + ruleText(spec.quadrature);
+    QStringList parts;
+    for (const char* direction : tensorParts) parts << ruleText(tensorPart(spec.quadrature, direction));
+    return text + parts.join(", ");
 }
 
 /// The length of an element, which follows from their number: the expression in its place says how, and is

@@ -151,8 +151,10 @@ bool ValueEdit::eventFilter(QObject* watched, QEvent* event) {
 void ValueEdit::show(const Value& value) {
     const QSignalBlocker b1(check_), b2(spin_), b3(choice_);
     if (check_) check_->setChecked(value.isBool() && value.asBool());
-    if (spin_ && value.isNumber()) spin_->setValue(static_cast<int>(value.asNumber()));
-    if (spin_ && !value.isNumber() && info_.isOptional) spin_->setValue(spin_->minimum());
+    if (spin_ && value.isNumber())
+        spin_->setValue(static_cast<int>(value.asNumber()));
+    else if (spin_ && info_.isOptional)
+        spin_->setValue(spin_->minimum());
     if (choice_) choice_->setCurrentText(fieldText(value));
     if (!text_) return;
     const QString text = info_.type == FieldType::constants     ? constantsText(value)

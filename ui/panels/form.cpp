@@ -78,7 +78,7 @@ void Form::addRow(FormField field) {
     connect(edit, &ValueEdit::edited, this, [this, field, what](const Value& value) {
         const Value* now = valueAt(workspace_.document(), field.pointer);
         if (now && *now == value) return workspace_.dropDraft(field.pointer);
-        // What may be left out is no key then.
+        // A key that may be left out is removed.
         const std::optional<Value> kept =
             field.info.isOptional && value.isNull() ? std::nullopt : std::optional(value);
         workspace_.edit(field.edits ? field.edits(value) : std::vector<Edit>{{field.pointer, kept}}, what,

@@ -247,7 +247,8 @@ void SchemeEditor::rebuild() {
             if (fittingRule(item.id, s.space) == item.id)
                 rule_->addItem(QString::fromStdString(item.title), QString::fromStdString(item.id));
         // A rule for each direction is not one to choose, but may be what the scheme has.
-        if (isTensorRule(shownRule())) rule_->addItem(ruleTitle(shownRule().type), QString("product"));
+        if (isTensorRule(shownRule()))
+            rule_->addItem(ruleTitle(shownRule().type), QString::fromStdString(shownRule().type));
         if (const CatalogItem* space = itemNamed(spaceCatalog(), s.space.type))
             addFields(fields, space->parameters, place() + "/space");
         if (const CatalogItem* rule = itemNamed(quadratureCatalog(), shownRule().type))

@@ -35,6 +35,8 @@ class FormatTest : public QObject {
             text(
                 R"("space":{"type":"tent","degree":{"space":2,"time":1}},"quadrature":{"space":{"type":"gauss","nodes":3},"time":"trapezoid"})"),
             ruleTitle("gauss").prepend("tent 2, 1 × ") + " 3, " + ruleTitle("trapezoid"));
+        QCOMPARE(text(R"("space":{"type":"tent","degree":{"time":1,"space":2}})").left(9),
+                 QString("tent 2, 1"));
         QCOMPARE(text(R"("space":{"type":"tent","degree":2})"),
                  QString("tent 2 × %1 3, %1 2").arg(ruleTitle("gauss")));
     }
