@@ -23,7 +23,16 @@ class FourierGrid {
 public:
     FourierGrid(const SpectralDomain& domain, const SpectralScheme& scheme)
         : grid_(domain.nx, domain.ny, scheme.nodes, domain.ny > 1 ? scheme.nodesY : 1),
-          mass_(domain.lengthX * domain.lengthY / static_cast<double>(grid_.nodes())) {}
+          mass_(domain.lengthX * domain.lengthY / static_cast<double>(grid_.nodes())) {
+        const double turn = 2 * std::numbers::pi, baseX = turn / domain.lengthX,
+                     baseY = turn / domain.lengthY;
+        for (int l = 0; l < domain.ny; ++l)
+            for (int k = 0; k <= domain.nx / 2; ++k) {
+                const double K = baseX * k, L = baseY * (2 * l > domain.ny ? l - domain.ny : l);
+                gradients_.insert(gradients_.end(), 2, K * K + L * L);
+            }
+    }
+    const std::vector<double>& gradients() const { return gradients_; }
     std::size_t nodes() const { return grid_.nodes(); }
     std::size_t points() const { return grid_.points(); }
     std::size_t numbers() const { return 2 * grid_.modes(); }
@@ -45,18 +54,8 @@ public:
 private:
     SpectralGrid grid_;
     double mass_;  ///< of a node
+    std::vector<double> gradients_;
 };
-
-std::vector<double> gradientsOf(const SpectralDomain& domain) {
-    const double turn = 2 * std::numbers::pi, baseX = turn / domain.lengthX, baseY = turn / domain.lengthY;
-    std::vector<double> all;
-    for (int l = 0; l < domain.ny; ++l)
-        for (int k = 0; k <= domain.nx / 2; ++k) {
-            const double K = baseX * k, L = baseY * (2 * l > domain.ny ? l - domain.ny : l);
-            all.insert(all.end(), 2, K * K + L * L);
-        }
-    return all;
-}
 
 struct StepInTime {
     int degree;
@@ -67,9 +66,7 @@ struct StepInTime {
 template <class Grid>
 class ModalField final : public FieldMarch {
 public:
-    /// `gradients`: |grad|^2 of each number in a row of the grid.
-    ModalField(Grid grid, const SpectralDomain& domain, const std::vector<double>& gradients, StepInTime time,
-               double step)
+    ModalField(Grid grid, const SpectralDomain& domain, StepInTime time, double step)
         : FieldMarch(domain.potential.components() * grid.nodes(), step),
           potential_(domain.potential),
           time_(std::move(time)),
@@ -81,7 +78,8 @@ public:
           stride_((points_ + Lanes::size - 1) / Lanes::size * Lanes::size),
           width_(StageTables::widthOf(components_ * grid_.numbers())) {
         for (std::size_t c = 0; c < components_; ++c)
-            for (const double each : gradients) linear_.push_back(domain.stiffness[c] * each + shifts_[c]);
+            for (const double each : grid_.gradients())
+                linear_.push_back(domain.stiffness[c] * each + shifts_[c]);
         known_.resize(2 * n());
         for (auto* row : {&U_, &V_, &dU_, &dV_}) row->resize(width_);
         for (auto* rows : {&G_, &before_, &Y_}) rows->resize(width_ * stages_);
@@ -219,20 +217,18 @@ private:
     }
     /// The equations of the step are those of a variation with W'' u in place of W'(u).
     void vary(std::vector<double>& du, std::vector<double>& dp) override {
-        for (std::size_t c = 0; c < components_; ++c) {
-            grid_.toModes(du.data() + c * grid_.nodes(), dU_.data() + c * grid_.numbers());
+        toModes(du.data(), dU_.data());
+        for (std::size_t c = 0; c < components_; ++c)
             grid_.fromMomenta(dp.data() + c * grid_.nodes(), dV_.data() + c * grid_.numbers());
-        }
         before_.swap(G_);  // G of the step stays for the next one
         std::fill(G_.begin(), G_.end(), 0.0);
         StepReport report;
         (void)iterate(dU_.data(), dV_.data(), varied_, report, [this](std::size_t i) { applyCurvature(i); });
         tables_.toEnd(G_.data(), dU_.data(), dV_.data());
         before_.swap(G_);
-        for (std::size_t c = 0; c < components_; ++c) {
-            grid_.toNodes(dU_.data() + c * grid_.numbers(), du.data() + c * grid_.nodes());
+        toNodes(dU_.data(), du.data());
+        for (std::size_t c = 0; c < components_; ++c)
             grid_.toMomenta(dV_.data() + c * grid_.numbers(), dp.data() + c * grid_.nodes());
-        }
     }
 
     JointPotential potential_;
@@ -272,18 +268,16 @@ SpectralDomain spectralDomainOf(const System& system) {
 std::unique_ptr<Integrator> makeSpectralField(const SpectralDomain& domain, const SpectralScheme& scheme,
                                               double step) {
     return std::make_unique<ModalField<FourierGrid>>(
-        FourierGrid(domain, scheme), domain, gradientsOf(domain),
+        FourierGrid(domain, scheme), domain,
         StepInTime{scheme.degree, gauss<double>(scheme.degree), scheme.solver}, step);
 }
 
 std::unique_ptr<Integrator> makeElementField(const SpectralDomain& domain, const ElementScheme& scheme,
                                              double step) {
-    ElementGrid grid({domain.nx, scheme.degree, domain.lengthX}, {domain.ny, scheme.degree, domain.lengthY},
-                     scheme.inSpace);
-    const std::vector<double> gradients = grid.gradients();
     return std::make_unique<ModalField<ElementGrid>>(
-        std::move(grid), domain, gradients, StepInTime{scheme.degreeInTime, scheme.inTime, scheme.solver},
-        step);
+        ElementGrid({domain.nx, scheme.degree, domain.lengthX}, {domain.ny, scheme.degree, domain.lengthY},
+                    scheme.inSpace),
+        domain, StepInTime{scheme.degreeInTime, scheme.inTime, scheme.solver}, step);
 }
 
 }  // namespace extremal

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/quadrature/tensor.hpp"
 
@@ -52,22 +51,28 @@ TimeTable timeTable(const Discretization& d) {
     return {degree, ruleIn(d.quadrature, "time", degree)};
 }
 
-namespace {
-
-/// The mass of an element of length 1.
-dense::SymmetricEigen<double> massModes(int degree, const Rule<double>& rule) {
+ElementMatrices elementMatrices(int degree, const Rule<double>& rule) {
     const int n = degree + 1;
     const LobattoBasis basis(degree);
-    dense::Matrix<double> M = dense::Matrix<double>::Zero(n, n);
+    ElementMatrices made{dense::Matrix<double>::Zero(n, n), dense::Matrix<double>::Zero(n, n)};
     std::vector<double> value(static_cast<std::size_t>(n)), slope(value);
     for (int q = 0; q < rule.size(); ++q) {
         basis.at(rule.c[static_cast<std::size_t>(q)], value.data(), slope.data());
         for (int a = 0; a < n; ++a)
-            for (int b = 0; b < n; ++b)
-                M(a, b) += rule.b[static_cast<std::size_t>(q)] * value[static_cast<std::size_t>(a)] *
-                           value[static_cast<std::size_t>(b)];
+            for (int b = 0; b < n; ++b) {
+                const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+                const double weight = rule.b[static_cast<std::size_t>(q)];
+                made.mass(a, b) += weight * value[i] * value[j];
+                made.stiffness(a, b) += weight * slope[i] * slope[j];
+            }
     }
-    return dense::symmetricEigen<double>(M);
+    return made;
+}
+
+namespace {
+
+dense::SymmetricEigen<double> massModes(int degree, const Rule<double>& rule) {
+    return dense::symmetricEigen<double>(elementMatrices(degree, rule).mass);
 }
 
 constexpr double noMass = 1e-12;  ///< relative to the largest

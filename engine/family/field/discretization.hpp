@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/family/discretization.hpp"
 #include "engine/family/time_table.hpp"
 #include "engine/model/field/spatial_form.hpp"
@@ -32,6 +33,12 @@ Rule<double> ruleIn(const Settings& quadrature, const char* direction, int degre
 std::shared_ptr<const SpatialForm> spatialForm(const Discretization& d,
                                                std::shared_ptr<const FieldProblem> problem);
 TimeTable timeTable(const Discretization& d);
+
+/// M and K of an element of length 1 in Lobatto's functions, by one rule.
+struct ElementMatrices {
+    dense::Matrix<double> mass, stiffness;
+};
+ElementMatrices elementMatrices(int degree, const Rule<double>& rule);
 
 /// 1 - 4 sum_a w_a xi_a (1 - xi_a) of linear functions, and its like: the smallest eigenvalue of the mass of
 /// an element, relative to the largest. 0: the rule does not see the mass of a wave.

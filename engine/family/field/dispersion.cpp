@@ -6,27 +6,30 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "engine/core/algebra/dense.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 
 namespace extremal {
 
+namespace {
+
+/// The eigenvalues of K over M, ascending; nothing where a function has no mass.
+std::optional<Eigen::VectorXd> relativeEigenvalues(const dense::Matrix<double>& K,
+                                                   const dense::Matrix<double>& M) {
+    const auto parts = dense::symmetricEigen<double>(M);
+    if (parts.values(0) < 1e-13 * parts.values(M.rows() - 1)) return {};
+    const dense::Matrix<double> scale = parts.vectors * parts.values.cwiseSqrt().cwiseInverse().asDiagonal();
+    return dense::symmetricEigen<double>(scale.transpose() * K * scale).values;
+}
+
+}  // namespace
+
 double spatialEigenvalue(int degree, const Rule<double>& rule, double kdx) {
     using Matrix = dense::Matrix<double>;
     const int r = degree, n = r + 1;
-    const LobattoBasis basis(r);
-    Matrix M = Matrix::Zero(n, n), K = Matrix::Zero(n, n);
-    std::vector<double> value(static_cast<std::size_t>(n)), slope(value);
-    for (int q = 0; q < rule.size(); ++q) {
-        basis.at(rule.c[static_cast<std::size_t>(q)], value.data(), slope.data());
-        for (int a = 0; a < n; ++a)
-            for (int b = 0; b < n; ++b) {
-                const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-                M(a, b) += rule.b[static_cast<std::size_t>(q)] * value[i] * value[j];
-                K(a, b) += rule.b[static_cast<std::size_t>(q)] * slope[i] * slope[j];
-            }
-    }
+    const ElementMatrices element = elementMatrices(degree, rule);
     // Bloch waves: the last node is exp(i kdx) times the first. A Hermitian problem of r unknowns as a real
     // symmetric one of 2 r, each eigenvalue twice.
     const std::complex<double> turn = std::polar(1.0, kdx);
@@ -41,24 +44,17 @@ double spatialEigenvalue(int degree, const Rule<double>& rule, double kdx) {
         real << B.real(), -B.imag(), B.imag(), B.real();
         return real;
     };
-    const Matrix massive = reduced(M), stiff = reduced(K);
-    const auto parts = dense::symmetricEigen<double>(massive);
-    if (parts.values(0) < 1e-13 * parts.values(2 * r - 1)) return std::numeric_limits<double>::infinity();
-    const Matrix scale = parts.vectors * parts.values.cwiseSqrt().cwiseInverse().asDiagonal();
-    const auto eigen = dense::symmetricEigen<double>(scale.transpose() * stiff * scale);
+    const auto values = relativeEigenvalues(reduced(element.stiffness), reduced(element.mass));
+    if (!values) return std::numeric_limits<double>::infinity();
     // Branch b of the mesh belongs to wave numbers from b pi to (b + 1) pi.
     const int branch = std::clamp(static_cast<int>(kdx / std::numbers::pi), 0, r - 1);
-    return eigen.values(2 * branch);
+    return (*values)(2 * branch);
 }
 
 double largestSpatialEigenvalue(int degree, const Rule<double>& rule) {
-    const double pi = std::acos(-1.0);
-    double most = 0;
-    for (int b = 1; b <= degree; ++b)
-        most = std::max(most, spatialEigenvalue(degree, rule, b * pi * (1 - 1e-15)));
-    for (int i = 0; i <= 64 * degree; ++i)
-        most = std::max(most, spatialEigenvalue(degree, rule, i * pi / 64));
-    return most;
+    const ElementMatrices element = elementMatrices(degree, rule);
+    const auto values = relativeEigenvalues(element.stiffness, element.mass);
+    return values ? (*values)(degree) : std::numeric_limits<double>::infinity();
 }
 
 double halfTrace(const TimeTable& time, double z) {

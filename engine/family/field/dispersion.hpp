@@ -18,7 +18,8 @@ namespace extremal {
 /// Lambda of the wave number k dx in [0, pi r] on elements of length 1, with wave speed 1 and no potential.
 double spatialEigenvalue(int degree, const Rule<double>& rule, double kdx);
 
-/// The largest of them: that of the whole mesh, of any number of elements.
+/// The largest of them: that of one element, which a wave that goes on from element to element with the
+/// factor 1 or -1 attains.
 double largestSpatialEigenvalue(int degree, const Rule<double>& rule);
 
 /// Half the trace of one step's map on the oscillator of frequency z / h.

@@ -34,7 +34,7 @@ std::string mismatchOnPlane(const Discretization& d, const System& system);
 std::optional<Properties> describeOnPlane(const Discretization& d, const System& system);
 
 /// The longest step that is stable for so many steps, with the largest W'' between the extremes of u;
-/// infinite: there is none.
+/// infinite where every step is.
 double longestPlaneStep(const Discretization& d, const PlaneFieldProblem& problem, const double* u,
                         double steps = std::numeric_limits<double>::infinity());
 
