@@ -3,55 +3,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 #include <vector>
 
 #include "engine/core/text/text.hpp"
 #include "engine/family/field_march.hpp"
+#include "engine/family/kick_drift_kick.hpp"
 #include "engine/model/plane_field/problem.hpp"
 
 namespace extremal {
 namespace {
 
-class PlaneLeapfrog final : public FieldMarch {
+class PlaneLeapfrog final : public KickDriftKick<FieldMarch> {
 public:
     PlaneLeapfrog(std::shared_ptr<const PlaneFieldProblem> problem, double step)
-        : FieldMarch(problem->size(), step),
-          problem_(std::move(problem)),
-          force_(n()),
-          of_(n()),
-          slope_(n()) {
+        : KickDriftKick(problem->size(), step), problem_(std::move(problem)), slope_(n()) {
         const wave::Grid& grid = problem_->grid();
         const double dx = grid.x.length / grid.nx, dy = grid.y.length / grid.ny;
         perX_ = 1 / (dx * dx);
         perY_ = grid.dimension() > 1 ? 1 / (dy * dy) : 0;
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<PlaneLeapfrog>(*this); }
-    bool checkpoint(Archive& archive) override {
-        archive(isKnown_, of_, force_);
-        return FieldMarch::checkpoint(archive);
-    }
 
 private:
-    Outcome step(const double* x, double* next, StepReport& report) override {
-        const std::size_t size = n();
-        const double half = h() / 2;
-        if (!isKnown_ || std::memcmp(of_.data(), x, size * sizeof(double)) != 0) evaluate(x, report);
-        for (std::size_t i = 0; i < size; ++i) {
-            next[size + i] = x[size + i] + half * force_[i];
-            next[i] = x[i] + h() * next[size + i];
-        }
-        evaluate(next, report);
-        for (std::size_t i = 0; i < size; ++i) next[size + i] += half * force_[i];
-        return Outcome::converged;
-    }
-    void evaluate(const double* u, StepReport& report) {
+    void accelerate(double /*t*/, const double* u, double* a, Cost& cost) override {
         problem_->potential().evaluate(u, nodes(), nodes(), nullptr, slope_.data(), nullptr);
-        addDifferences(u, slope_.data(), force_.data());
-        std::copy_n(u, n(), of_.begin());
-        isKnown_ = true;
-        report.cost.evaluations += static_cast<long long>(n());
+        addDifferences(u, slope_.data(), a);
+        cost.evaluations += static_cast<long long>(n());
     }
     std::size_t nodes() const { return problem_->nodes(); }
     /// f = c^2 (D_x + D_y) u - slope.
@@ -76,44 +54,35 @@ private:
         }
     }
 
-    bool hasVariations() const override { return true; }
-    bool linearise() override {
-        std::vector<double> after(2 * n());
-        StepReport ignored;
-        if (step(before().data(), after.data(), ignored) != Outcome::converged) return false;
+    void linearise(const double* start, const double* end) override {
         const std::size_t m = problem_->components();
-        for (const auto& [state, curvature] : {std::pair{&before(), &atStart_}, {&after, &atEnd_}}) {
+        for (const auto& [u, curvature] : {std::pair{start, &atStart_}, {end, &atEnd_}}) {
             curvature->resize(m * (m + 1) / 2 * nodes());
-            problem_->potential().evaluate(state->data(), nodes(), nodes(), nullptr, nullptr,
-                                           curvature->data());
+            problem_->potential().evaluate(u, nodes(), nodes(), nullptr, nullptr, curvature->data());
         }
-        return true;
     }
     /// Momenta are dx dy v.
-    void vary(std::vector<double>& du, std::vector<double>& dp) override {
-        const double mass = problem_->grid().measure() / static_cast<double>(nodes());
-        const auto kick = [&](const std::vector<double>& curvature) {
-            std::vector<double> slope(n(), 0), f(n());
-            const double* W = curvature.data();
-            for (std::size_t c = 0; c < problem_->components(); ++c)
-                for (std::size_t d = 0; d <= c; ++d, W += nodes())
-                    for (std::size_t i = 0; i < nodes(); ++i) {
-                        slope[c * nodes() + i] += W[i] * du[d * nodes() + i];
-                        if (d < c) slope[d * nodes() + i] += W[i] * du[c * nodes() + i];
-                    }
-            addDifferences(du.data(), slope.data(), f.data());
-            for (std::size_t i = 0; i < n(); ++i) dp[i] += h() / 2 * mass * f[i];
-        };
-        kick(atStart_);
-        for (std::size_t i = 0; i < n(); ++i) du[i] += h() * dp[i] / mass;
-        kick(atEnd_);
+    double mass() const { return problem_->grid().measure() / static_cast<double>(nodes()); }
+    void kick(End end, double scale, const double* du, double* dp) override {
+        std::vector<double> slope(n(), 0), f(n());
+        const double* W = (end == End::start ? atStart_ : atEnd_).data();
+        for (std::size_t c = 0; c < problem_->components(); ++c)
+            for (std::size_t d = 0; d <= c; ++d, W += nodes())
+                for (std::size_t i = 0; i < nodes(); ++i) {
+                    slope[c * nodes() + i] += W[i] * du[d * nodes() + i];
+                    if (d < c) slope[d * nodes() + i] += W[i] * du[c * nodes() + i];
+                }
+        addDifferences(du, slope.data(), f.data());
+        for (std::size_t i = 0; i < n(); ++i) dp[i] += scale * mass() * f[i];
+    }
+    void drift(double scale, const double* dp, double* du) override {
+        for (std::size_t i = 0; i < n(); ++i) du[i] += scale * dp[i] / mass();
     }
 
     std::shared_ptr<const PlaneFieldProblem> problem_;
-    double perX_ = 0, perY_ = 0;  ///< 1/dx^2, 1/dy^2; of a line 0
-    bool isKnown_ = false;
-    std::vector<double> force_, of_, slope_;  ///< f, the values it belongs to, W'
-    std::vector<double> atStart_, atEnd_;     ///< W'' at the ends of the last step
+    double perX_ = 0, perY_ = 0;           ///< 1/dx^2, 1/dy^2; of a line 0
+    std::vector<double> slope_;            ///< W'
+    std::vector<double> atStart_, atEnd_;  ///< W'' at the ends of the last step
 };
 
 }  // namespace
