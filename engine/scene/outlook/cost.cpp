@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/scene/outlook/cost.hpp"
 
+#include <optional>
+
 #include "engine/core/problem.hpp"
 #include "engine/core/thread_clock.hpp"
 #include "engine/scene/bind.hpp"
@@ -21,16 +23,26 @@ double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme, 
     // Steps that a scheme chooses cost more in one part of a motion than in another.
     const double budget = isFixed ? 3e-3 : 3e-2;
     const Clock nodes{state.t, integrator->stepSize()};
-    // A first step meets code and memory for the first time; where it is long, it is trial enough.
-    constexpr double longFirst = 0.1;
-    if (State first = state; state.t < end) {
-        const double begin = threadSeconds();
+    // A first step meets code and memory for the first time. A long one may have made what the others keep,
+    // as factors of a matrix: the next one tells. One that is very long is trial enough.
+    constexpr double veryLong = 1;
+    if (State now = state; now.t < end) {
         const auto copy = integrator->clone();
         copy->setStop(stop);
-        const auto outcome = copy->advance(first, isFixed ? nodes.at(first.node + 1) : end).outcome;
-        const double spent = threadSeconds() - begin;
-        if (spent > longFirst && first.t > state.t)
-            return outcome == Outcome::converged ? spent * (end - start) / (first.t - start) : 0;
+        const auto secondsOfStep = [&]() -> std::optional<double> {
+            const double begin = threadSeconds();
+            const auto outcome = copy->advance(now, isFixed ? nodes.at(now.node + 1) : end).outcome;
+            if (outcome != Outcome::converged) return {};
+            return threadSeconds() - begin;
+        };
+        const std::optional<double> first = secondsOfStep();
+        if (!first) return 0;
+        if (*first > budget && now.t > start) {
+            const double after = now.t;
+            if (*first > veryLong || after >= end) return *first * (end - start) / (after - start);
+            const std::optional<double> second = secondsOfStep();
+            return second && now.t > after ? *first + *second * (end - after) / (now.t - after) : 0;
+        }
     }
     const double begin = threadSeconds();
     double spent = 0;
