@@ -22,7 +22,10 @@ using tests::Answer;
 using tests::contentOf;
 using tests::runProgram;
 
-const QStringList scene = {"run", "preset:spring-pendulum", "--quiet", "--out"};
+/// Without a reference: how far that is confirmed is a question of processor time, and two runs of a slow
+/// build may say different things of it.
+const QStringList scene = {"run",  "preset:spring-pendulum", "--set", "/reference=\"none\"", "--quiet",
+                           "--out"};
 
 /// Whether the bytes of a checkpoint are those that were written: a line of JSON that says whose they are,
 /// a line with the CRC-32 of the others, and these.
@@ -100,8 +103,7 @@ private slots:
     }
 
     void killedAtAnyMomentARunIsResumed() {
-        const QStringList longer = {"run",  "preset:spring-pendulum", "--set", "/time/end=20", "--quiet",
-                                    "--out"};
+        const QStringList longer = QStringList{"run", "--set", "/time/end=20"} + scene.mid(1);
         const QDir unbroken(folder_.filePath("unbroken"));
         QElapsedTimer timer;
         timer.start();

@@ -7,17 +7,12 @@
 #include <QString>
 #include <QStringList>
 
+#include "tests/tools/slowdown.hpp"
+
 namespace extremal::tests {
 
-/// How long a program may take before it counts as hung, in milliseconds: forty times as long with sanitizers,
-/// which slow searches down as much.
-constexpr int limit(int milliseconds) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return 40 * milliseconds;
-#else
-    return milliseconds;
-#endif
-}
+/// How long a program may take before it counts as hung, in milliseconds.
+constexpr int limit(int milliseconds) { return slowdown * milliseconds; }
 
 struct Answer {
     int code = -1;  ///< -2: ended by a signal

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "tests/tools/slowdown.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/shell/actions.hpp"
@@ -45,7 +46,9 @@ private slots:
         window.wanted().setError(1e-3);
         window.actions().find("cellCosts")->trigger();
         QVERIFY(waitForCosts(window));
-        QVERIFY2(measured(window) >= 10, qPrintable(QString::number(measured(window))));
+        // In the time of a search a build with sanitizers comes to some cells only.
+        const std::ptrdiff_t fewest = tests::slowdown > 1 ? 2 : 10;
+        QVERIFY2(measured(window) >= fewest, qPrintable(QString::number(measured(window))));
         double least = 1e9;
         for (const DiscretizerCell* cell : window.discretizer().cells())
             if (cell->cost() && cell->cost()->seconds > 0) least = std::min(least, cell->cost()->times);
