@@ -15,6 +15,8 @@ namespace extremal {
 struct SystemCondition {
     static constexpr PartInfo part{"system-condition", "a condition on systems", false};
     std::function<bool(const System&)> holds;
+    /// Of a system of these parts for which it does not hold: why, for a sentence. May be empty.
+    std::function<std::string(const System&)> reason = {};
 };
 
 /// Of families: why one of their discretizations cannot be used on a system of theirs; empty if it can.

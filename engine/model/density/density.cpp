@@ -6,10 +6,12 @@
 #include <memory>
 #include <span>
 
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/formula.hpp"
+#include "engine/model/typed/node_tape.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape_registers.hpp"
 
@@ -270,9 +272,21 @@ FieldDensity::FieldDensity(const Settings& settings, const std::vector<std::stri
                                        static_cast<std::size_t>(components_), time, time + 1);
     for (int i = 0; i < directions_; ++i)
         dependsOnPlace_.push_back(depends(0, 1 + n, places + i, places + i + 1));
-    for (int c = 0; c < components_; ++c) isCyclic_.push_back(!depends(0, 1, c, c + 1));
+    for (int i = 0; i < places; ++i) dependsOn_.push_back(depends(0, 1, i, i + 1));
+    for (int c = 0; c < components_; ++c) isCyclic_.push_back(!dependsOn(c));
     isLinear_ = !depends(1 + n, n * (n + 1) / 2, 0, places);
     recognise(formula.text, names);
+    // p = dL/du_t is m(x, y) u_t, but for what does not move: it depends on no other argument.
+    for (int c = components_; c < 2 * components_ && implicitBecause_.empty(); ++c) {
+        const auto own = static_cast<std::size_t>(c);
+        const std::size_t mass = 1 + n + triangle(own, own);
+        const std::string by = "its derivative by " + names[own];
+        if (depends(mass, 1, 0, places)) implicitBecause_ = by + " is not linear in it";
+        for (int i = 0; i < places; ++i)
+            if (i != c && depends(1 + own, 1, i, i + 1))
+                implicitBecause_ = by + " depends on " + names[static_cast<std::size_t>(i)];
+        if (depends(1 + own, 1, time, time + 1)) implicitBecause_ = by + " depends on t";
+    }
 }
 
 void FieldDensity::recognise(const std::string& text, const std::vector<std::string>& names) {
@@ -319,6 +333,24 @@ double FieldDensity::gradient(const double* at, double* slope) const {
     const auto n = static_cast<std::size_t>(arguments());
     for (std::size_t i = 0; i < n; ++i) slope[i] = r[1 + i];
     return r[0];
+}
+
+namespace {
+
+inline void gradientOfEight(const typed::Tape& tape, std::size_t arguments, std::size_t inputs,
+                            const Lanes* at, Lanes* slope) {
+    typed::runEight(
+        tape, [&](Lanes* front) { std::copy_n(at, inputs, front); },
+        [&](std::size_t k, const Lanes& value) {
+            if (k > 0 && k <= arguments) slope[k - 1] = value;
+        });
+}
+
+}  // namespace
+
+void FieldDensity::gradient(const Lanes* at, Lanes* slope) const {
+    static const auto run = ForThisMachine<&gradientOfEight>::call();
+    run(gradient_, static_cast<std::size_t>(arguments()), static_cast<std::size_t>(inputs()), at, slope);
 }
 
 double FieldDensity::jet(const double* at, double* slope, double* curvature) const {

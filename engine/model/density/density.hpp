@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/core/field.hpp"
 #include "engine/core/settings.hpp"
 #include "engine/core/value.hpp"
@@ -61,6 +62,8 @@ public:
     double gradient(const double* at, double* slope) const;
     /// The same, and the lower triangle of the second derivatives row by row.
     double jet(const double* at, double* slope, double* curvature) const;
+    /// The first derivatives at eight places together.
+    void gradient(const Lanes* at, Lanes* slope) const;
 
     bool isTimeDependent() const { return isTimeDependent_; }
     /// Whether it depends on x (0) or y (1) itself.
@@ -69,6 +72,11 @@ public:
     bool isCyclic(int c) const { return isCyclic_[static_cast<std::size_t>(c)]; }
     /// Whether dL/du_t depends on t itself.
     bool isMomentumTimeDependent() const { return isMomentumTimeDependent_; }
+    /// Whether it depends on argument k m + c.
+    bool dependsOn(int argument) const { return dependsOn_[static_cast<std::size_t>(argument)]; }
+    /// What keeps it from being sum_c m_c(x, y) u_c,t^2/2 - V(u, grad u, x, y, t), for which a step may be
+    /// explicit; empty: nothing.
+    const std::string& implicitBecause() const { return implicitBecause_; }
     /// The field equation is linear: all second derivatives depend on place and time alone.
     bool isLinear() const { return isLinear_; }
 
@@ -85,7 +93,8 @@ private:
     std::vector<std::pair<std::string, double>> parameters_;
     typed::Tape value_, gradient_, jet_;
     bool isTimeDependent_ = false, isMomentumTimeDependent_ = false, isLinear_ = false;
-    std::vector<bool> dependsOnPlace_, isCyclic_;
+    std::vector<bool> dependsOnPlace_, isCyclic_, dependsOn_;
+    std::string implicitBecause_;
     std::optional<UsualDensity> usual_;
     std::string unusual_;
 };

@@ -13,6 +13,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/density/cell_sum.hpp"
+#include "engine/model/density/places.hpp"
 #include "engine/model/density/start.hpp"
 #include "engine/model/field/field_system.hpp"
 #include "engine/model/parts/named_start.hpp"
@@ -24,6 +25,32 @@ namespace {
 
 using SharedDensity = std::shared_ptr<const DensityProblem>;
 
+/// The mean of the values of a component around each node; of one whose values are at nodes, these.
+void sampleAtNodes(const DensityProblem& problem, FieldPlace place, const double* u, double* values) {
+    const int nx = problem.nodesX(), ny = problem.nodesY();
+    const int backX = isConstantAlong(place, 0) ? 1 : 0, backY = isConstantAlong(place, 1) ? 1 : 0;
+    const auto at = [&](int i, int j) { return u[(i + nx) % nx + (j + ny) % ny * nx]; };
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i)
+            *values++ = (at(i, j) + at(i - backX, j) + at(i, j - backY) + at(i - backX, j - backY)) / 4;
+}
+
+/// b_x - a_y of a on the edges along x and b on those along y, in each cell: the magnetic field where (a, b)
+/// is the potential.
+std::vector<double> curlOf(const DensityProblem& problem, const EdgePair& pair, const double* u) {
+    const int nx = problem.nodesX(), ny = problem.nodesY();
+    const double *const a = u + pair.alongX * problem.nodes(), *const b = u + pair.alongY * problem.nodes();
+    std::vector<double> curl(problem.nodes());
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) {
+            const int here = i + j * nx, right = (i + 1) % nx + j * nx, above = i + (j + 1) % ny * nx;
+            curl[static_cast<std::size_t>(here)] =
+                (b[right] - b[here]) / problem.dx() - (a[above] - a[here]) / problem.dy();
+        }
+    return curl;
+}
+
+/// u and u_t of every component at the nodes; of a pair on edges its curl besides.
 FieldSampling densitySampling(const SharedDensity& problem) {
     FieldSampling f;
     f.x = problem->x();
@@ -37,7 +64,19 @@ FieldSampling densitySampling(const SharedDensity& problem) {
     f.isGraph = !problem->isPlane() && problem->components() == 1;
     for (const char* suffix : {"", "_t"})
         for (const std::string& name : problem->names) f.components.push_back(name + suffix);
-    f.sample = [n = 2 * problem->size()](const double* x, double* values) { std::copy_n(x, n, values); };
+    if (edgePairOf(*problem)) f.components.emplace_back("curl");
+    if (problem->isNodal()) {
+        f.sample = [n = 2 * problem->size()](const double* x, double* values) { std::copy_n(x, n, values); };
+        return f;
+    }
+    f.sample = [problem, pair = edgePairOf(*problem)](const double* x, double* values) {
+        for (std::size_t c = 0; c < 2 * problem->components(); ++c)
+            sampleAtNodes(*problem, problem->place(c % problem->components()), x + c * problem->nodes(),
+                          values + c * problem->nodes());
+        if (pair)
+            sampleAtNodes(*problem, FieldPlace::cells, curlOf(*problem, *pair, x).data(),
+                          values + 2 * problem->size());
+    };
     return f;
 }
 
@@ -100,6 +139,42 @@ std::vector<MomentumMap> densityMomenta(const SharedDensity& problem,
     return all;
 }
 
+/// Of a pair on edges, by the masses at the edges (the trapezoidal rule): the divergence of dL/du_t at the
+/// nodes, which is the charge that the gauge symmetry (a, b) -> (a + f_x, b + f_y) conserves at each of them.
+Measure densityDivergence(const SharedDensity& problem, const EdgePair& pair) {
+    std::vector<Quantity> columns = {{"div_e", "", "largest |div ∂L/∂u_t|", ""},
+                                     {"div_e_error", "", "largest change of div ∂L/∂u_t", ""}};
+    const auto sum = std::make_shared<const CellSum>(CellSum::ofInstant(problem, trapezoid<double>(1)));
+    const auto divergence = [problem, pair, sum](double t, const double* x) {
+        const int nx = problem->nodesX(), ny = problem->nodesY();
+        std::vector<double> p(problem->size(), 0.0), all(problem->nodes());
+        sum->addGradient(t, x, x + problem->size(), CellSum::By::second, p.data());
+        const double *const a = p.data() + pair.alongX * problem->nodes(), *const b =
+                                                                               p.data() +
+                                                                               pair.alongY * problem->nodes();
+        const double cell = problem->dx() * problem->dy();
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i) {
+                const int here = i + j * nx, left = (i + nx - 1) % nx + j * nx,
+                          below = i + (j + ny - 1) % ny * nx;
+                all[static_cast<std::size_t>(here)] =
+                    ((a[here] - a[left]) / problem->dx() + (b[here] - b[below]) / problem->dy()) / cell;
+            }
+        return all;
+    };
+    return {"div-e", std::move(columns), 1, [divergence](const State& initial) {
+                return [divergence, before = divergence(initial.t, initial.x.data())](
+                           double t, const double* x, double* values) {
+                    const std::vector<double> now = divergence(t, x);
+                    values[0] = values[1] = 0;
+                    for (std::size_t i = 0; i < now.size(); ++i) {
+                        values[0] = std::max(values[0], std::abs(now[i]));
+                        values[1] = std::max(values[1], std::abs(now[i] - before[i]));
+                    }
+                };
+            }};
+}
+
 /// What stands beside what: a tenth of the width between two pictures.
 constexpr double gapBeside = 1.1;
 
@@ -121,27 +196,35 @@ void drawDensityOnLine(const DensityProblem& problem, const double* u, Drawing& 
     }
 }
 
-/// |u| as how strong a colour is, its sign as the hue; a picture for each component, one scale for all.
-void drawDensityOnRectangle(const DensityProblem& problem, const double* u, Drawing& drawing) {
+/// |u| as how strong a colour is, its sign as the hue; a picture for each component, one scale for all, and
+/// one of the curl of a pair on edges with a scale of its own.
+void drawDensityOnRectangle(const DensityProblem& problem, const double* sample, Drawing& drawing) {
     wave::Grid grid{problem.along, problem.nodesX(), problem.across, problem.nodesY()};
     drawing.tracer = {grid.x.left + grid.x.length / 2, grid.y.left + grid.y.length / 2, 0};
     if (drawing.isTracerOnly) return;
-    constexpr double positive = 0.6, negative = 0.07;  // blue and orange, as in plots
-    double largest = 0;
-    for (std::size_t i = 0; i < problem.size(); ++i) largest = std::max(largest, std::abs(u[i]));
-    const double unit = largest > 0 ? 1 / largest : 0;
-    for (std::size_t c = 0; c < problem.components(); ++c) {
+    const auto unitOf = [](const double* values, std::size_t count) {
+        double largest = 0;
+        for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, std::abs(values[i]));
+        return largest > 0 ? 1 / largest : 0;
+    };
+    const auto draw = [&](const double* values, double unit, const std::string& name) {
+        constexpr double positive = 0.6, negative = 0.07;  // blue and orange, as in plots
         drawing.shapes.push_back(rasterOf(grid, [&](Raster& r, std::size_t j) {
-            const double value = u[c * problem.nodes() + j];
-            r.strengths.push_back(unit * std::abs(value));
-            r.hues.push_back(value < 0 ? negative : positive);
+            r.strengths.push_back(unit * std::abs(values[j]));
+            r.hues.push_back(values[j] < 0 ? negative : positive);
         }));
         addFrame(grid, drawing);
         if (problem.components() > 1)
-            drawing.shapes.push_back(Word{
-                {grid.x.left + grid.x.length / 2, grid.y.left + 1.04 * grid.y.length, 0}, problem.names[c]});
+            drawing.shapes.push_back(
+                Word{{grid.x.left + grid.x.length / 2, grid.y.left + 1.04 * grid.y.length, 0}, name});
         grid.x.left += gapBeside * grid.x.length;
-    }
+    };
+    const double unit = unitOf(sample, problem.size());
+    for (std::size_t c = 0; c < problem.components(); ++c)
+        draw(sample + c * problem.nodes(), unit, problem.names[c]);
+    if (!edgePairOf(problem)) return;
+    const double* const curl = sample + 2 * problem.size();
+    draw(curl, unitOf(curl, problem.nodes()), "curl");
 }
 
 }  // namespace
@@ -158,7 +241,8 @@ System makeDensitySystem(SharedDensity problem) {
     s.blocks.sizes.assign(2, problem->size());
     s.error = densityError(problem);
     s.field = densitySampling(problem);
-    if (problem->isPeriodic()) s.measures.push_back(densityTranslation(problem, sum));
+    if (problem->isPeriodic() && problem->isNodal()) s.measures.push_back(densityTranslation(problem, sum));
+    if (const auto pair = edgePairOf(*problem)) s.measures.push_back(densityDivergence(problem, *pair));
     s.momenta = densityMomenta(problem, sum);
     s.parts.set(
         NamedStart{densityStartFields(*problem), [](const Settings&) { return std::vector<Problem>(); }});

@@ -62,14 +62,15 @@ std::vector<std::shared_ptr<const TypedFunction>> exactFunctions(const DensityPr
     return all;
 }
 
-/// f(place, i) at all nodes, place = (x, [y], room for t).
+/// f(place, i) where the values of a component are, place = (x, [y], room for t).
 template <class F>
-void forNodes(const DensityProblem& problem, F&& f) {
+void forPlaces(const DensityProblem& problem, std::size_t component, F&& f) {
+    const double right = problem.offset(component, 0), up = problem.offset(component, 1);
     std::size_t i = 0;
     for (int row = 0; row < problem.nodesY(); ++row)
         for (int column = 0; column < problem.nodesX(); ++column) {
-            std::array<double, 3> place{problem.placeX(column), 0, 0};
-            if (problem.isPlane()) place[1] = problem.placeY(row);
+            std::array<double, 3> place{problem.placeX(column) + right, 0, 0};
+            if (problem.isPlane()) place[1] = problem.placeY(row) + up;
             f(place, i++);
         }
 }
@@ -78,7 +79,7 @@ void fillExact(const DensityProblem& problem,
                const std::vector<std::shared_ptr<const TypedFunction>>& functions, double t, double* x) {
     const std::size_t time = problem.isPlane() ? 2 : 1;
     for (std::size_t c = 0; c < functions.size(); ++c)
-        forNodes(problem, [&](std::array<double, 3> place, std::size_t i) {
+        forPlaces(problem, c, [&](std::array<double, 3> place, std::size_t i) {
             std::array<double, 3> slope{};
             place[time] = t;
             const std::size_t at = c * problem.nodes() + i;
@@ -89,7 +90,7 @@ void fillExact(const DensityProblem& problem,
 
 /// A component of u or u_t from its key.
 void fillFrom(const Settings& initial, const std::string& key, const DensityProblem& problem,
-              double* values) {
+              std::size_t component, double* values) {
     const Value* const given = initial.find(key);
     const std::string pointer = "/" + key;
     if (!given || given->isNull()) return;
@@ -112,7 +113,7 @@ void fillFrom(const Settings& initial, const std::string& key, const DensityProb
             "must be an expression in " + joinedPlaces(problem, false) + ", or a list of values at the nodes",
             problem.isPlane() ? "exp(-x^2 - y^2)" : "exp(-x^2)");
     const TypedFunction f(textOf(*given), pointer, placeNames(problem, false), problem.density.parameters());
-    forNodes(problem, [&](const std::array<double, 3>& place, std::size_t i) {
+    forPlaces(problem, component, [&](const std::array<double, 3>& place, std::size_t i) {
         values[i] = f(place.data());
         if (!std::isfinite(values[i]))
             throw InvalidScene(pointer, "is not finite at x = " + formatNumber(place[0], 6),
@@ -267,8 +268,8 @@ std::vector<double> densityStart(const DensityProblem& problem, const Settings& 
     fillExact(problem, functions, t, x.data());
     for (std::size_t c = 0; c < problem.components() && functions.empty(); ++c) {
         double* const u = x.data() + c * problem.nodes();
-        fillFrom(initial, problem.names[c], problem, u);
-        fillFrom(initial, problem.names[c] + "_t", problem, u + problem.size());
+        fillFrom(initial, problem.names[c], problem, c, u);
+        fillFrom(initial, problem.names[c] + "_t", problem, c, u + problem.size());
     }
     for (std::size_t i = 0; i < problem.size(); ++i)
         if (problem.isFixed(i)) x[problem.size() + i] = 0;

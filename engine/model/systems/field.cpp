@@ -11,6 +11,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/density/density_system.hpp"
+#include "engine/model/density/places.hpp"
 #include "engine/model/field/field_system.hpp"
 #include "engine/model/field/moving_field.hpp"
 #include "engine/model/field/profile.hpp"
@@ -39,6 +40,7 @@ std::vector<FieldInfo> fieldParameters() {
         notNegative("mass", "mass", "", 1, "m of the Klein-Gordon equation, and a name in W(u)."),
         densityField("\"-sqrt(1 - u_t^2 + u_x^2)\""),
         densityParametersField(),
+        densityPlacesField(false),
         domain,
         choiceField("boundary", "boundary", {"periodic", "dirichlet", "neumann"},
                     "What holds at the ends: periodic, dirichlet: the values stay as they are at the "
@@ -115,6 +117,7 @@ std::shared_ptr<const DensityProblem> densityProblem(const Settings& settings) {
     problem.along = {ends[0], ends[1] - ends[0]};
     problem.cellsX = settings.integer("cells");
     problem.boundary = boundaryNamed(settings.text("boundary"));
+    readPlaces(settings, problem);
     return std::make_shared<const DensityProblem>(std::move(problem));
 }
 
@@ -150,7 +153,10 @@ System makeField(const Settings& settings) {
     if (!(ends[1] > ends[0]))
         throw InvalidScene("/domain", "must go from left to right, got " + formatNumber(ends[0]) + " to " +
                                           formatNumber(ends[1]));
-    if (!hasDensity(settings)) return makeUsualField(settings);
+    if (!hasDensity(settings)) {
+        refusePlaces(settings);
+        return makeUsualField(settings);
+    }
     refuseKeysBesideDensity(settings);
     const auto problem = densityProblem(settings);
     const auto& usual = problem->density.usual();

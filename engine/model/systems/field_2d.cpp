@@ -9,6 +9,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/model/density/density_system.hpp"
+#include "engine/model/density/places.hpp"
 #include "engine/model/plane_field/plane_field_system.hpp"
 #include "engine/model/plane_field/settings.hpp"
 #include "engine/model/plane_field/start.hpp"
@@ -38,6 +39,7 @@ std::vector<FieldInfo> planeFieldParameters() {
             notNegative("mass", "mass", "", 1, "m of the Klein-Gordon equation, and a name in W(u)."),
             densityField("\"-sqrt(1 - u_t^2 + u_x^2 + u_y^2)\""),
             densityParametersField(),
+            densityPlacesField(true),
             sideField("domain", "domain in x", "x"),
             sideField("domain_y", "domain in y", "y"),
             integerField("cells", "N", 4, 4096, 64, "Number of nodes along x, even."),
@@ -63,6 +65,7 @@ System makePlaneField(const Settings& settings) {
         problem->across = grid.y;
         problem->cellsX = grid.nx;
         problem->cellsY = grid.ny;
+        readPlaces(settings, *problem);
         if (const auto& usual = problem->density.usual()) {
             s = makePlaneFieldSystem(std::make_shared<const PlaneFieldProblem>(
                 planeFieldOf(withPotential(settings, *usual), grid)));
@@ -71,6 +74,7 @@ System makePlaneField(const Settings& settings) {
             s = makeDensitySystem(std::move(problem));
         }
     } else {
+        refusePlaces(settings);
         s = makePlaneFieldSystem(std::make_shared<const PlaneFieldProblem>(planeFieldOf(settings, grid)));
     }
     s.id = "field-2d";

@@ -48,6 +48,11 @@ std::vector<ObservableEntry> measures() {
             "where "
             "its density is above a thousandth of the largest.",
             "a wave function in the plane"),
+        row("div-e", "divergence of E",
+            "Of two components on the edges of the cells, the potential (a, b) of electrodynamics: the largest "
+            "div ∂L/∂u_t at a node, with the masses at the edges, and its largest change. Without currents it "
+            "stays at every node, which the trapezoidal rule in space keeps to round-off.",
+            "a typed density with components on edges"),
         row("edge", "edge",
             "The largest |ψ| at the edges of the domain over the largest of all: is the domain wide enough?",
             "a periodic wave function"),

@@ -43,6 +43,9 @@ std::vector<ViewEntry> errors_against_time() {
             "norm", {"norm_error", "", 1}),
         row("charge", "Charge", "change of the charge of a complex field against time or steps, logarithmic",
             "charge", {"charge_error", "|Q − Q(0)|", 1}),
+        row("div-e", "Divergence of E",
+            "largest change of div ∂L/∂u_t at a node against time or steps, logarithmic, for components on edges",
+            "div-e", {"div_e_error", "|div E − div E(0)|", 1}),
         row("translation-momentum", "Field momentum",
             "change of the momentum of translation of a field against time or steps, logarithmic: round-off "
             "where the quadrature in space is exact",

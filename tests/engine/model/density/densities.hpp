@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/baseline/implicit_cells.hpp"
+#include "engine/model/density/places.hpp"
 #include "engine/model/density/problem.hpp"
 #include "engine/model/system.hpp"
 
@@ -27,6 +28,7 @@ struct DensityCase {
     /// Of the plane; cells 0: an interval.
     double below = 0, height = 2 * pi;
     int cellsY = 0;
+    Value places = {};  ///< of the components by name
 };
 
 /// The settings of the model with every key.
@@ -40,6 +42,7 @@ inline Settings settingsOf(const DensityCase& c) {
                     {"mass", 1.0},
                     {"lagrangian", c.lagrangian},
                     {"parameters", Value(c.parameters)},
+                    {"places", c.places},
                     {"domain", Value::Array{c.left, c.left + c.length}},
                     {"cells", static_cast<double>(c.cells)}},
                    {}};
@@ -69,6 +72,7 @@ inline std::shared_ptr<const DensityProblem> problemOf(const DensityCase& c) {
         p.cellsY = c.cellsY;
     }
     p.boundary = boundaryNamed(c.boundary);
+    readPlaces(settingsOf(c), p);
     return std::make_shared<const DensityProblem>(std::move(p));
 }
 
