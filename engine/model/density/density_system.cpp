@@ -216,7 +216,7 @@ void drawDensityOnRectangle(const DensityProblem& problem, const double* sample,
         addFrame(grid, drawing);
         if (problem.components() > 1)
             drawing.shapes.push_back(
-                Word{{grid.x.left + grid.x.length / 2, grid.y.left + 1.04 * grid.y.length, 0}, name});
+                Word{{grid.x.left + grid.x.length / 2, grid.y.left + 1.08 * grid.y.length, 0}, name});
         grid.x.left += gapBeside * grid.x.length;
     };
     const double unit = unitOf(sample, problem.size());

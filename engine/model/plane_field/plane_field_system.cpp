@@ -183,7 +183,7 @@ void drawOnRectangle(const PlaneFieldProblem& problem, const double* u, Drawing&
         addFrame(grid, drawing);
         if (pictures > 1)
             drawing.shapes.push_back(Word{
-                {grid.x.left + grid.x.length / 2, grid.y.left + 1.04 * grid.y.length, 0}, problem.name(c)});
+                {grid.x.left + grid.x.length / 2, grid.y.left + 1.08 * grid.y.length, 0}, problem.name(c)});
         grid.x.left += gap * grid.x.length;
     }
 }

@@ -5,6 +5,8 @@
 
 namespace extremal::views {
 
+/// `multiplier`: of moving meshes the largest one of equidistribution, an indicator of the error of the
+/// discrete action; of discretizations in coordinates that of continuity.
 std::vector<ViewEntry> errors_against_time() {
     const auto row = [](const char* id, const char* title, const char* description, const char* observable,
                         const ErrorAgainstTime& recipe) {
@@ -31,20 +33,19 @@ std::vector<ViewEntry> errors_against_time() {
             "|H_h − H_h(0)| against time or steps, logarithmic: the modified energy, which symplectic "
             "schemes keep up to tiny terms, and others do not",
             "modified-energy", {"modified_energy_error", "|H_h − H_h(0)|", 1}),
-        // Of moving meshes the largest multiplier of equidistribution, an indicator of the error of the
-        // discrete action; of discretizations in coordinates that of continuity.
         row("multiplier", "Multiplier",
             "size of the multiplier of continuity, or of that of a moving mesh, against time or steps, "
             "logarithmic",
             "multiplier", {"multiplier", "|λ|", 0}),
         row("norm", "Norm error",
-            "change of the norm of the wave function, or of the length of a spin, against time or steps, "
+            "change of the norm of a wave function, or of the length of a spin, against time or steps, "
             "logarithmic",
             "norm", {"norm_error", "", 1}),
         row("charge", "Charge", "change of the charge of a complex field against time or steps, logarithmic",
             "charge", {"charge_error", "|Q − Q(0)|", 1}),
         row("div-e", "Divergence of E",
-            "largest change of div ∂L/∂u_t at a node against time or steps, logarithmic, for components on edges",
+            "largest change of div ∂L/∂u_t at a node against time or steps, logarithmic, for components on "
+            "edges",
             "div-e", {"div_e_error", "|div E − div E(0)|", 1}),
         row("translation-momentum", "Field momentum",
             "change of the momentum of translation of a field against time or steps, logarithmic: round-off "
@@ -68,8 +69,7 @@ std::vector<ViewEntry> errors_against_time() {
             "steps, logarithmic",
             "reversibility", {"reversibility", "|x back − x|", 1}),
         row("transported-error", "Transported error",
-            "what the local errors have become, carried along by the tangent maps of the steps, logarithmic, "
-            "against time or steps",
+            "what the local errors have become, carried along by the tangent maps of the steps, logarithmic",
             "local-error", {"transported_error", "|e|"}),
         row("volume", "Phase-space volume",
             "|det M − 1| against time or steps, logarithmic; M is the tangent map of a step", "volume",
