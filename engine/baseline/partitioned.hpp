@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/splitting_table.hpp"
+#include "engine/tableau/splitting_table.hpp"
 
 namespace extremal {
 

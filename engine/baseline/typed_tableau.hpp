@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/baseline/splitting_table.hpp"
+#include "engine/tableau/splitting_table.hpp"
 #include "engine/core/catalog.hpp"
 #include "engine/core/settings.hpp"
 #include "engine/family/findings.hpp"

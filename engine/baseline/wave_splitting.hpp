@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/splitting_table.hpp"
+#include "engine/tableau/splitting_table.hpp"
 
 namespace extremal {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/splitting_table.hpp"
+#include "engine/tableau/splitting_table.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "tests/bench/cpu_time.hpp"

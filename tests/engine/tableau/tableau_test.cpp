@@ -9,7 +9,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/parts.hpp"
-#include "engine/baseline/splitting_table.hpp"
+#include "engine/tableau/splitting_table.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/parts/tables.hpp"

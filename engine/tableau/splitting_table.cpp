@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/baseline/splitting_table.hpp"
+#include "engine/tableau/splitting_table.hpp"
 
 #include <cmath>
 #include <numeric>

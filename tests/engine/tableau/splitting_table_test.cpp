@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/baseline/splitting_table.hpp"
+#include "engine/tableau/splitting_table.hpp"
 #include "tests/tools/slope.hpp"
 #include "tests/tools/test.hpp"
 
