@@ -90,6 +90,20 @@ void turningBody(PeerTable& table, const char* title, const laws::KnownBody& kno
     for (const int degree : {1, 2, 3, 4, 6, 8})
         curves.push_back(measure("lie-" + std::to_string(degree), false, steps, 0.02,
                                  [&](double n) { return run(schemeOf(laws::liePair(degree)), n); }));
+    if (isTop) {
+        const auto freeMotion = [](const char* knots) {
+            return schemeOf({{"free-motion", {{"knots", knots}}, {}}, {"auto", {}, {}}, {}});
+        };
+        for (const char* knots : {"strang", "srkn-6b", "srkn-11b", "srkn-14a"})
+            curves.push_back(measure(std::string("free motion ") + knots, false, steps, 0.02,
+                                     [&](double n) { return run(freeMotion(knots), n); }));
+        const std::vector<double> parts = compositionParts({"kahan-li", {{"order", 8.0}}, {}}, 2);
+        const Make composedOnes = [&](const System& of, const State& from, double h) {
+            return composed(parts, *freeMotion("strang")(of, from, h));
+        };
+        curves.push_back(measure("free motion, Kahan-Li 8", false, steps, 0.02,
+                                 [&](double n) { return run(composedOnes, n); }));
+    }
     if (!isTop)
         // To round-off, and only as far as the accuracy needs: momenta and lengths are kept in any case.
         for (const int degree : {3, 4, 6, 8})

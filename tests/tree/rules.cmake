@@ -27,7 +27,7 @@ set(max_files 40)  # in a folder, without those below it
 # engine/family/<family> alone, and in tests. Polynomials and splines are tables as well: engine/space may name them,
 # formulas have a function `spline`, and monitors may be typed.
 set(families galerkin energy_momentum multiscale lie wave elliptic field asynchronous moving_mesh
-    free_knot spectral_field)
+    free_knot free_motion spectral_field)
 set(names_of_galerkin polynomial spline typed by-coordinate)
 set(names_of_energy_momentum moving-time minimise hmin hmax)
 set(names_of_multiscale oscillatory oscillatory-product harmonics)
@@ -37,6 +37,7 @@ set(names_of_elliptic elliptic-elements)
 set(names_of_field tent)
 set(names_of_asynchronous asynchronous courant)
 set(names_of_free_knot free-knots)
+set(names_of_free_motion free-motion)
 set(names_of_spectral_field fourier-field)
 set(names_of_moving_mesh moving-mesh relaxation speed_limit action-error)
 

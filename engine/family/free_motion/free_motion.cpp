@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/family/free_motion/free_motion.hpp"
+
+#include <limits>
+#include <type_traits>
+
+#include "engine/family/free_motion/free_body.hpp"
+
+namespace extremal {
+namespace {
+
+class FreeMotion final : public BodyMethodOf<FreeMotion> {
+    friend BodyMethodOf;
+
+public:
+    FreeMotion(const System& system, const Splitting& splitting, double step)
+        : BodyMethodOf(system, step), splitting_(splitting), body_(system.body().inertia) {}
+    bool checkpoint(Archive& archive) override {
+        archive(at_, torque_, force_);
+        return true;
+    }
+
+private:
+    template <class T>
+    void move(BodyMotion<T>& m, double h) {
+        const std::size_t count = splitting_.stages.size();
+        for (std::size_t k = 0; k < count; ++k) {
+            const SplittingStage& stage = splitting_.stages[k];
+            if (stage.isKick)
+                kick(m, stage.fraction * h);
+            else
+                body_.move(m, stage.fraction * h);
+            // Behind the last drift, so that the pose of a last kick is that of the state.
+            const bool isLastDrift = k + 1 == count ? !stage.isKick : k + 2 == count && !stage.isKick;
+            if (isLastDrift) m.q = so3::normalised(m.q);
+        }
+    }
+    template <class T>
+    void kick(BodyMotion<T>& m, double t) {
+        so3::Vector<T> torque, force;
+        if constexpr (std::is_same_v<T, double>) {
+            // The last kick of a step and the first one of the next see the same pose.
+            const std::array<double, 7> here{m.q(0),        m.q(1),        m.q(2),       m.q(3),
+                                             m.position(0), m.position(1), m.position(2)};
+            if (here != at_) {
+                forces(m, torque_, force_, true);
+                at_ = here;
+            }
+            torque = torque_;
+            force = force_;
+        } else {
+            forces(m, torque, force);
+        }
+        m.momentum += torque * T(t);
+        if (BodyMethod::body_.dimension == 6) m.linear += so3::matrix(m.q) * force * T(t);
+    }
+
+    Splitting splitting_;
+    FreeBody body_;
+    std::array<double, 7> at_{std::numeric_limits<double>::quiet_NaN()};  ///< pose of the forces below
+    Vector torque_ = Vector::Zero(), force_ = Vector::Zero();
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> makeFreeMotion(const System& system, const Splitting& splitting, double step) {
+    return std::make_unique<FreeMotion>(system, splitting, step);
+}
+
+}  // namespace extremal
