@@ -120,7 +120,7 @@ std::vector<ChoiceGrid> choiceGrids(const System& system) {
                                                                });
         if (!fit) continue;
         ChoiceGrid& grid = grids.front();
-        if (!isVariant(family, system) || further.width() != grid.width()) {
+        if (!isVariant(family, system) || further.columns != grid.columns) {
             grids.push_back(std::move(further));
             continue;
         }

@@ -4,6 +4,7 @@
 
 #include <QTest>
 
+#include "tests/tools/slowdown.hpp"
 #include "ui/compare/compare_view.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/plots/plot_widget.hpp"
@@ -20,7 +21,7 @@ inline bool waitForResults(MainWindow& window) {
                    !window.runControl().isStale() && window.compareView().isCurrent() &&
                    window.discretizer().isCurrent();
         },
-        120000);
+        120000 * tests::slowdown);
 }
 
 /// The first plot of a view; null: the scene has no such plot.
