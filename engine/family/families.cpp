@@ -120,7 +120,8 @@ std::vector<ChoiceGrid> choiceGrids(const System& system) {
                                                                });
         if (!fit) continue;
         ChoiceGrid& grid = grids.front();
-        if (!isVariant(family, system) || further.columns != grid.columns) {
+        if (!isVariant(family, system) || further.width() != grid.width() ||
+            further.columns.size() != grid.columns.size()) {
             grids.push_back(std::move(further));
             continue;
         }

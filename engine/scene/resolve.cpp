@@ -206,7 +206,10 @@ ResolvedScheme refined(const ResolvedScheme& scheme, const ResolvedScene& resolv
         refine(*onFiner);
         return finer;
     }
-    if (const auto* const own = scheme.baseline ? scheme.baseline->parts.find<RefinedMesh>() : nullptr)
+    if (const auto* const own = scheme.family     ? scheme.family->parts.find<RefinedMesh>()
+                                : scheme.baseline ? scheme.baseline->parts.find<RefinedMesh>()
+                                                  : nullptr;
+        own && isTaken(scheme.family ? own->ofOwn : own->of, resolved.system->parts))
         refine(*own);
     return finer;
 }

@@ -3,6 +3,7 @@
 /// Order 2, multisymplectic; a Newton iteration with a banded LU in each step.
 #include "engine/baseline/implicit_cells.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -25,11 +26,11 @@ Rule<double> ruleOf(const Settings& settings) {
     return name == "trapezoid" ? trapezoid<double>(1) : gauss<double>(name == "gauss-3" ? 3 : 2);
 }
 
-/// Over a rectangle the mesh stays: there is no room for finer ones.
+/// Throws where there is no room for a finer mesh.
 Settings refinedField(const Settings& model, int factor) {
-    Settings finer = model;
-    for (auto& [key, value] : finer.keys)
-        if (key == "cells" && model.type == "field") value = value.asNumber() * factor;
+    Settings finer = refinedCells(model, factor);
+    if (finer.find("cells_y") && std::max(finer.integer("cells"), finer.integer("cells_y")) > mostCellsAlong)
+        throw InvalidScene("/cells", "has no room for a finer mesh");
     return finer;
 }
 

@@ -14,6 +14,7 @@
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/step_limit.hpp"
 #include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/meshes.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
 #include "engine/model/density/part.hpp"
 #include "engine/model/density/problem.hpp"
@@ -73,6 +74,7 @@ BaselineEntry leapfrog() {
         return Claims{2, true, true, {"bilinear form"}, false};
     }});
     e.parts.set(OrderInSpace{2});
+    e.parts.set(RefinedMesh{refinedCells, Takes::only<PlaneField, DensityField>()});
     e.parts.set(OscillatorLimit(1));
     e.parts.set(StepCheck{[](const SchemeCase& scheme, Findings& findings) {
         if (scheme.system.parts.find<ScalarField>())

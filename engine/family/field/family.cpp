@@ -237,13 +237,6 @@ std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
     return own;
 }
 
-Settings refined(const Settings& model, int factor) {
-    Settings finer = model;
-    for (auto& [key, value] : finer.keys)
-        if (key == "cells") value = value.asNumber() * factor;
-    return finer;
-}
-
 std::shared_ptr<const FieldProblem> problemFor(const System& system, const Discretization& d) {
     const auto& problem = system.part<ScalarField>().problem;
     if (hasOwnFunctions(d.space) && !problem->functions)
@@ -478,7 +471,7 @@ Family field() {
     f.parts.set(SchemeCondition{mismatchOnPlane});
     f.parts.set(DescribedOnSystem{describeOnPlane});
     f.parts.set(TrustedMesh{referenceMesh, Takes::only<ScalarField>()});
-    f.parts.set(RefinedMesh{refined, Takes::only<ScalarField>()});
+    f.parts.set(RefinedMesh{refinedCells, Takes::only<ScalarField>(), Takes::only<PlaneField>()});
     f.parts.set(LargestStep{largestStep});
     f.parts.set(StartThrough{startThrough});
     f.parts.set(SlowestStep{[](const SchemeCase& scheme) {

@@ -6,7 +6,7 @@
 
 namespace extremal {
 
-/// Its choices are further rows of the grid of another family with the same columns, or a grid after it, and
+/// Its choices are further rows of the grid of another family with as many columns, or a grid after it, and
 /// it provides references before that one does. A family without it is the one that the window starts from
 /// for its systems.
 struct Variant {

@@ -232,10 +232,10 @@ void drawDensityOnRectangle(const DensityProblem& problem, const double* sample,
 System makeDensitySystem(SharedDensity problem) {
     System s;
     s.parts.set(DensityField{problem});
-    s.parts.set(RefusedBecause{problem->density.usual()
-                                   ? "its components are not periodic, and implicit cells alone have such"
-                                   : "its Lagrangian density is not u_t²/2 - c² |grad u|²/2 - W(u): " +
-                                         problem->density.unusual()});
+    s.parts.set(RefusedBecause{
+        problem->density.usual()
+            ? "its components are not periodic, and implicit cells and leapfrog alone have such"
+            : "its Lagrangian density is not u_t²/2 - c² |grad u|²/2 - W(u): " + problem->density.unusual()});
     const auto sum = std::make_shared<const CellSum>(CellSum::ofInstant(problem, gauss<double>(2)));
     s.energy = [problem, sum](double t, const double* x) { return sum->energy(t, x, x + problem->size()); };
     s.blocks.sizes.assign(2, problem->size());

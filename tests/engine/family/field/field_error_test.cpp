@@ -155,6 +155,45 @@ private slots:
                      qPrintable(QString("%1: %2").arg(s.label.c_str()).arg(s.orderMeasured)));
         }
     }
+    /// Over rectangles too, of schemes that are not spectral in space, where the exact solution is known;
+    /// those that are have the order of the step.
+    void ordersOverRectangles_data() {
+        QTest::addColumn<QString>("model");
+        QTest::addColumn<QString>("initial");
+        QTest::addColumn<QString>("scheme");
+        QTest::addColumn<double>("order");
+        const char *const
+            usual = R"("potential": "none", "cells": 16, "cells_y": 16)",
+            *const edges = R"J("components": ["a", "b"], "places": {"a": "edges-x", "b": "edges-y"},
+                              "lagrangian": "(a_t^2 + b_t^2)/2 - (b_x - a_y)^2/2", "cells": 16, "cells_y": 16)J",
+            *const wave = R"({"profile": {"name": "plane-wave", "wave_vector": [1, 1], "amplitude": 1}})",
+            *const light = R"J({"exact": {"a": "-sin(x + y - sqrt(2)*t)", "b": "sin(x + y - sqrt(2)*t)"}})J";
+        QTest::newRow("leapfrog") << usual << wave << R"("baseline": "leapfrog")" << 2.0;
+        QTest::newRow("elements") << usual << wave << R"("space": {"type": "tent", "degree": 2})" << 4.0;
+        QTest::newRow("Fourier") << usual << wave << R"("scheme": "field-gauss-2")" << 4.0;
+        QTest::newRow("edges") << edges << light << R"("baseline": "leapfrog")" << 2.0;
+        QTest::newRow("implicit cells") << edges << light << R"("baseline": "implicit-cells")" << 2.0;
+        // There is no room for a mesh that is twice as fine.
+        QTest::newRow("no room") << QString(edges).replace("16", "40") << light
+                                 << R"("baseline": "implicit-cells")" << std::nan("");
+    }
+    void ordersOverRectangles() {
+        QFETCH(QString, model);
+        QFETCH(QString, initial);
+        QFETCH(QString, scheme);
+        QFETCH(double, order);
+        const Comparison c = compared(
+            R"J({"extremal": 1, "model": {"type": "field-2d", "domain": [0, "2*pi"], "domain_y": [0, "2*pi"], )J" +
+            model.toStdString() + R"(}, "initial": )" + initial.toStdString() +
+            R"(, "time": {"end": 1}, "observe": ["error", "order"], "schemes": [{"step": 0.1, )" +
+            scheme.toStdString() + "}]}");
+        const double measured = c.schemes.front()->summary.orderMeasured;
+        qInfo("%.2f", measured);
+        if (std::isnan(order))
+            QVERIFY(std::isnan(measured));
+        else
+            QVERIFY(std::abs(measured - order) < 0.2);
+    }
     void whatWouldCostMinutesHasNoReference() {
         const ResolvedScene large =
             resolved(scene(R"("potential": "sine-gordon", "cells": 100000)", swing, 100,
