@@ -9,7 +9,9 @@
 #include <QTimer>
 
 #include <algorithm>
+#include <functional>
 
+#include "ui/compare/compare_view.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/termination.hpp"
@@ -37,8 +39,14 @@ int takePicture(QApplication& application, const QString& file, const std::strin
     if (size.size() == 2) window.resize(size[0].toInt(), size[1].toInt());
     if (!scene.empty()) window.open(QString::fromStdString(scene));
     window.show();
-    int code = 1;
-    const auto grab = [&] {
+    int code = 1, waits = 0;
+    // Plots follow a run in the background, on a busy machine some time later.
+    const std::function<void()> grab = [&] {
+        constexpr int most = 30;
+        if (!window.compareView().isCurrent() && ++waits < most) {
+            QTimer::singleShot(300, &window, grab);
+            return;
+        }
         QTimer::singleShot(900, &window, [&] {
             code = window.grab().save(file) ? 0 : 3;
             application.quit();
