@@ -31,7 +31,7 @@ std::string implicitBecause(const System& system) {
     return because.empty() ? because : "its density is not m u_t²/2 - V(u, grad u): " + because;
 }
 
-/// The momentum of a typed density is that of Gauss 2, which is the same where the mass is everywhere.
+/// The momentum of a typed density is that of Gauss 2: the same where the mass does not depend on the place.
 Claims claimsOf(const DensityProblem& problem) {
     Claims claims{2, true, true, {"multisymplectic form"}, true};
     const bool isSame =

@@ -383,7 +383,7 @@ private slots:
         const DensityCase c = line(density.toStdString());
         QCOMPARE(QString::fromStdString(problemOf(c)->density.implicitBecause()), because);
         QVERIFY(!appliesTo(*findBaseline("leapfrog"), systemOf(c)));
-        // A term that moves nothing is none that keeps a step from being explicit.
+        // A term that moves nothing does not keep a step from being explicit.
         QCOMPARE(problemOf(line("u_t^2/2 + sin(x)*u_t - u_x^4"))->density.implicitBecause(), std::string());
     }
     void placesAreRead_data() {
