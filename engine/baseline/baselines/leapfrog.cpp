@@ -10,7 +10,6 @@
 #include "engine/baseline/field_method.hpp"
 #include "engine/family/field/density_leapfrog.hpp"
 #include "engine/family/field/plane_leapfrog.hpp"
-#include "engine/core/text/text.hpp"
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/step_limit.hpp"
 #include "engine/family/parts/conditions.hpp"
@@ -34,20 +33,14 @@ std::string implicitBecause(const System& system) {
 /// The momentum of a typed density is that of Gauss 2: the same where the mass does not depend on the place.
 Claims claimsOf(const DensityProblem& problem) {
     Claims claims{2, true, true, {"multisymplectic form"}, true};
-    const bool isSame =
-        !problem.density.dependsOnPlace(0) && (!problem.isPlane() || !problem.density.dependsOnPlace(1));
-    if (isSame) claims.conserves.push_back("momentum");
+    if (!problem.density.dependsOnPlace()) claims.conserves.push_back("momentum");
     return claims;
 }
 
 void checkDensityStep(const DensityField& field, const SchemeCase& scheme, Findings& findings) {
-    constexpr double slack = 1 + 1e-12;  // a step at the limit itself is stable
-    const double longest = densityLeapfrogLimit(field.problem, scheme.initial.t, scheme.initial.x.data());
-    if (scheme.allowsUnstable || !(scheme.step > longest * slack)) return;
-    findings.error("/step",
-                   formatNumber(scheme.step) + " is beyond the stability limit " + formatNumber(longest, 4) +
-                       " of leapfrog on this mesh at the start",
-                   "a smaller step, fewer cells, or \"allow_unstable\": true", "field-step");
+    if (scheme.allowsUnstable) return;
+    refuseLongerStep(densityLeapfrogLimit(field.problem, scheme.initial.t, scheme.initial.x.data()),
+                     "leapfrog on this mesh at the start", scheme, findings);
 }
 
 }  // namespace

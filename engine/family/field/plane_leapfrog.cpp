@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/text/text.hpp"
+#include "engine/family/field/step_limit.hpp"
 #include "engine/family/field_march.hpp"
 #include "engine/family/kick_drift_kick.hpp"
 #include "engine/model/plane_field/problem.hpp"
@@ -116,14 +116,11 @@ double planeLeapfrogLimit(const PlaneFieldProblem& problem, const double* u) {
 
 void checkPlaneStep(const PlaneFieldProblem& problem, double longest, const std::string& name,
                     const SchemeCase& scheme, Findings& findings) {
-    constexpr double slack = 1 + 1e-12;  // a step at the limit itself is stable
-    if (scheme.allowsUnstable || !(scheme.step > longest * slack)) return;
     const wave::Grid& grid = problem.grid();
-    findings.error("/step",
-                   formatNumber(scheme.step) + " is beyond the stability limit " + formatNumber(longest, 4) +
-                       " of " + name + " on this mesh of " + std::to_string(grid.nx) +
-                       (grid.dimension() > 1 ? " x " + std::to_string(grid.ny) : std::string()) + " nodes",
-                   "a smaller step, fewer cells, or \"allow_unstable\": true", "field-step");
+    refuseLongerStep(longest,
+                     name + " on this mesh of " + std::to_string(grid.nx) +
+                         (grid.dimension() > 1 ? " x " + std::to_string(grid.ny) : std::string()) + " nodes",
+                     scheme, findings);
 }
 
 }  // namespace extremal

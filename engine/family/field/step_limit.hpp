@@ -9,6 +9,10 @@
 
 namespace extremal {
 
+/// An error for a step that is longer than `longest`, unless the scheme allows it. `of`: what the limit is
+/// of, for people: "leapfrog on this mesh of 64 x 64 nodes".
+void refuseLongerStep(double longest, const std::string& of, const SchemeCase& scheme, Findings& findings);
+
 /// An error for a step with step * sqrt(Lambda) > limit, unless the scheme allows it: Lambda is the largest
 /// eigenvalue of the elements (SpatialForm::largestEigenvalue) at the start. `limit`: largest step *
 /// frequency of the scheme in time; `name` of the scheme, for people.

@@ -4,8 +4,7 @@
 ///
 /// With I_i = I_j and Omega = Pi / I_i + (1/I_k - 1/I_i) Pi_k e_k, of which the first part is constant in
 /// space and the second one in the body,
-///     R = R_0 exp(t Pi_0 / I_i) exp(t (1/I_k - 1/I_i) Pi_k e_k),   Pi = exp(-t (1/I_k - 1/I_i) Pi_k e_k)
-///     Pi_0
+///     R = R_0 exp(t Pi_0 / I_i) exp(a e_k),   Pi = exp(-a e_k) Pi_0,   a = t (1/I_k - 1/I_i) Pi_k
 /// (Leok 2004, sec. 3.2 for the signs). Position and linear momentum: x = x_0 + t p / m.
 #pragma once
 

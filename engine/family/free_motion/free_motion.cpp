@@ -23,16 +23,16 @@ public:
 private:
     template <class T>
     void move(BodyMotion<T>& m, double h) {
-        const std::size_t count = splitting_.stages.size();
-        for (std::size_t k = 0; k < count; ++k) {
-            const SplittingStage& stage = splitting_.stages[k];
+        const auto& stages = splitting_.stages;
+        const std::size_t lastDrift = stages.size() - (stages.back().isKick ? 2 : 1);
+        for (std::size_t k = 0; k < stages.size(); ++k) {
+            const SplittingStage& stage = stages[k];
             if (stage.isKick)
                 kick(m, stage.fraction * h);
             else
                 body_.move(m, stage.fraction * h);
-            // Behind the last drift, so that the pose of a last kick is that of the state.
-            const bool isLastDrift = k + 1 == count ? !stage.isKick : k + 2 == count && !stage.isKick;
-            if (isLastDrift) m.q = so3::normalised(m.q);
+            // Before a last kick, so that its pose is that of the state.
+            if (k == lastDrift) m.q = so3::normalised(m.q);
         }
     }
     template <class T>

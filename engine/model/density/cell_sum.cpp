@@ -284,8 +284,7 @@ bool CellSum::forElements(double t, const double* u, const Element& f) const {
     std::array<double, mostArguments> of;
     std::array<double, mostArguments*(mostArguments + 1) / 2> second;
     const std::vector<double> rest(p.size(), 0.0);
-    const bool isHomogeneous = p.density.isLinear() && !p.density.dependsOnPlace(0) &&
-                               (!p.isPlane() || !p.density.dependsOnPlace(1));
+    const bool isHomogeneous = p.density.isLinear() && !p.density.dependsOnPlace();
     bool isFine = true, isDone = false;
     std::size_t node = 0;
     sweep(t, u, rest.data(), [&](const Node& at, const auto&, const double* inputs) {

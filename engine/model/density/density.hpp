@@ -68,6 +68,7 @@ public:
     bool isTimeDependent() const { return isTimeDependent_; }
     /// Whether it depends on x (0) or y (1) itself.
     bool dependsOnPlace(int direction) const { return dependsOnPlace_[static_cast<std::size_t>(direction)]; }
+    bool dependsOnPlace() const { return dependsOnPlace(0) || (directions_ > 1 && dependsOnPlace(1)); }
     /// Whether it does not depend on component c but through its derivatives.
     bool isCyclic(int c) const { return isCyclic_[static_cast<std::size_t>(c)]; }
     /// Whether dL/du_t depends on t itself.
