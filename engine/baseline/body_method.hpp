@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Baselines of rigid bodies: family/body_method.hpp, and a key of those on quaternions.
+/// Baselines of rigid bodies: step/body_method.hpp, and a key of those on quaternions.
 #pragma once
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/family/body_method.hpp"
+#include "engine/step/body_method.hpp"
 
 namespace extremal {
 

@@ -1,57 +1,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <memory>
-#include <mutex>
+#include "engine/baseline/splitting_baseline.hpp"
+
+#include <limits>
 #include <utility>
 #include <vector>
 
-#include "engine/baseline/partitioned.hpp"
 #include "engine/baseline/parts.hpp"
-#include "engine/baseline/wave_splitting.hpp"
 #include "engine/family/parts/conditions.hpp"
+#include "engine/family/wave/wave.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/model/wave/interaction.hpp"
+#include "engine/step/wave_splitting.hpp"
 
 namespace extremal {
-
-std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool isSeparable) {
-    std::vector<PartitionedStage> stages;
-    if (isSeparable) {
-        for (const SplittingStage& s : splitting.stages)
-            stages.push_back({s.isKick ? HalfMap::kickExplicit : HalfMap::driftExplicit, s.fraction});
-        return stages;
-    }
-    double c = 0;
-    bool isEuler = true;
-    for (std::size_t i = 0; i + 1 < splitting.stages.size(); ++i, isEuler = !isEuler) {
-        c = splitting.stages[i].fraction - c;
-        stages.push_back({isEuler ? HalfMap::kickImplicit : HalfMap::driftImplicit, c});
-        stages.push_back({isEuler ? HalfMap::driftExplicit : HalfMap::kickExplicit, c});
-    }
-    return stages;
+BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage> stages) {
+    BaselineEntry e;
+    e.item = std::move(item);
+    e.parts.set(OscillatorLimit(2));
+    // Of separable systems, and exact: fractions are 1 and 1/2.
+    e.parts.set(BaselineTableau{[stages](const Settings&) {
+        std::vector<SplittingStage> flows;
+        for (const PartitionedStage& s : stages) flows.push_back({s.isKick(), s.fraction});
+        return tableauOf(flows, 1e-30);
+    }});
+    e.takes = flowProblems();
+    e.make = [stages = std::move(stages)](const System& system, const BaselineOptions& options) {
+        return makePartitioned(flowOf(system), options.step, stages);
+    };
+    return e;
 }
 
-namespace {
-
-/// Found when it is asked for: the catalogue is made at every start, and all limits together take longer than
-/// most scenes.
-class LazyLimit {
-public:
-    explicit LazyLimit(std::vector<SplittingStage> stages) : stages_(std::move(stages)) {}
-    double value() {
-        // Fractions are printed to 15 digits.
-        std::call_once(isKnown_,
-                       [this] { value_ = firstEdge(OscillatorStep(tableauOf(stages_, 1e-15)).intervals()); });
-        return value_;
-    }
-
-private:
-    std::vector<SplittingStage> stages_;
-    std::once_flag isKnown_;
-    double value_ = 0;
-};
-
-}  // namespace
+std::unique_ptr<Integrator> makeWaveSplittingBaseline(const System& system, double step,
+                                                      const Splitting& splitting) {
+    requireSplit(system, "/baseline", "split-step",
+                 "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
+    return makeWaveSplitting(system, step, splitting);
+}
 
 BaselineEntry splittingBaseline(std::string id, std::string title, std::string description,
                                 const Splitting& splitting) {
@@ -66,13 +51,30 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
     e.parts.set(SystemCondition{[isNystrom = splitting.isNystrom](const System& system) {
         return system.parts.find<Wave>() || !isNystrom || flowOf(system).isSeparable;
     }});
-    e.parts.set(OscillatorLimit(
-        [limit = std::make_shared<LazyLimit>(splitting.stages)](const Settings&) { return limit->value(); }));
+    // Found when it is asked for: the catalogue is made at every start.
+    e.parts.set(OscillatorLimit([splitting](const Settings&) { return stabilityLimit(splitting); }));
     e.parts.set(BaselineTableau{[splitting](const Settings&) { return tableauOf(splitting.stages, 1e-15); }});
     e.make = [splitting](const System& system, const BaselineOptions& options) {
-        if (system.parts.find<Wave>()) return makeWaveSplitting(system, options.step, splitting);
+        if (system.parts.find<Wave>()) return makeWaveSplittingBaseline(system, options.step, splitting);
         const Mechanics<double> flow = flowOf(system);
         return makePartitioned(flow, options.step, partitionedStages(splitting, flow.isSeparable));
+    };
+    return e;
+}
+
+BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description,
+                                    const Splitting& splitting) {
+    BaselineEntry e;
+    e.item = {std::move(id),
+              std::move(title),
+              std::move(description),
+              {},
+              Claims{splitting.order, true, true, {"norm"}},
+              "a wave function"};
+    e.takes = Takes::only<Wave, Interaction, Rotation>();
+    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
+    e.make = [splitting](const System& system, const BaselineOptions& options) {
+        return makeWaveSplittingBaseline(system, options.step, splitting);
     };
     return e;
 }

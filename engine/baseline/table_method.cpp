@@ -3,9 +3,9 @@
 
 #include <limits>
 
-#include "engine/baseline/coordinate_watch.hpp"
 #include "engine/core/algebra/lu.hpp"
 #include "engine/core/corrections.hpp"
+#include "engine/step/coordinate_watch.hpp"
 
 namespace extremal {
 namespace {

@@ -6,7 +6,7 @@
 /// method on all stages together. The tangent map is that of the stages: (I - h J a) K' = J W.
 #pragma once
 
-#include "engine/baseline/flow_method.hpp"
+#include "engine/step/flow_method.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal {

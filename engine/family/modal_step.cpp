@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "engine/core/algebra/lanes.hpp"
-#include "engine/family/field_march.hpp"
+#include "engine/family/stage_tables.hpp"
 #include "engine/model/field/element_grid.hpp"
 #include "engine/model/field/spectral_grid.hpp"
-#include "engine/family/stage_tables.hpp"
 #include "engine/model/plane_field/problem.hpp"
+#include "engine/step/field_march.hpp"
 
 namespace extremal {
 namespace {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/core/algebra/dense.hpp"
+#include "engine/core/memo_cache.hpp"
 #include "engine/core/work.hpp"
 
 namespace extremal {
@@ -298,6 +299,14 @@ std::vector<UnstableInterval> OscillatorStep::intervals() const {
 
 double firstEdge(const std::vector<UnstableInterval>& intervals) {
     return intervals.empty() ? unbounded : intervals.front().low;
+}
+
+double stabilityLimit(const Splitting& splitting) {
+    static MemoCache<std::vector<SplittingStage>, double> known(64);
+    return known.get(splitting.stages, [&] {
+        // Fractions are printed to 15 digits.
+        return firstEdge(OscillatorStep(tableauOf(splitting.stages, 1e-15)).intervals());
+    });
 }
 
 }  // namespace extremal

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "engine/integrator/unstable_interval.hpp"
+#include "engine/tableau/splitting_table.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal {
@@ -69,5 +70,8 @@ private:
     Matrix forth_;                            ///< A Ahat
     std::vector<double> parts_{1.0};
 };
+
+/// The largest stable step * frequency of a splitting. Remembered: finding it takes longer than most scenes.
+double stabilityLimit(const Splitting& splitting);
 
 }  // namespace extremal

@@ -25,6 +25,7 @@ struct Tableau;
 struct SplittingStage {
     bool isKick;      ///< a flow of B, else of A
     double fraction;  ///< of the step
+    bool operator==(const SplittingStage&) const = default;
 };
 
 struct Splitting {

@@ -14,7 +14,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/functions.cmake)
 
 # A folder may include itself and every folder before it.
 set(levels
-    core mesh group quadrature model symmetry space action tableau solve integrator mechanism phase family baseline trajectory observe view scene run study passport figure inspect
+    core mesh group quadrature model symmetry space action tableau solve integrator mechanism phase step family baseline trajectory observe view scene run study passport figure inspect
     library ui app)
 # The levels within ui: a folder may include itself and the folders of lower levels. Folders joined by "+" are on one
 # level, and do not include each other. This list and the one above are also the tree that the handbook prints.

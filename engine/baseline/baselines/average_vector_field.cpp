@@ -12,13 +12,13 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/coordinate_watch.hpp"
-#include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/core/algebra/lu.hpp"
 #include "engine/core/corrections.hpp"
 #include "engine/phase/flow_jacobian.hpp"
 #include "engine/quadrature/rule.hpp"
+#include "engine/step/coordinate_watch.hpp"
+#include "engine/step/flow_method.hpp"
 
 namespace extremal::baselines {
 namespace {

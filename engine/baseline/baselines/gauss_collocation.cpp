@@ -18,12 +18,12 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/gauss_tableau.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/model/spins/spins.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/solve/correction_size.hpp"
+#include "engine/step/flow_method.hpp"
 
 namespace extremal::baselines {
 namespace {

@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/classical_tangent.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/family/parts/conditions.hpp"
-#include "engine/baseline/classical_tangent.hpp"
-#include "engine/baseline/flow_method.hpp"
+#include "engine/step/flow_method.hpp"
 
 namespace extremal::baselines {
 namespace {

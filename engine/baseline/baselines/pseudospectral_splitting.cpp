@@ -11,8 +11,8 @@
 #include "engine/baseline/field_method.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/family/field_march.hpp"
 #include "engine/model/wave/basis/fourier.hpp"
+#include "engine/step/field_march.hpp"
 
 namespace extremal::baselines {
 namespace {

@@ -3,10 +3,10 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/classical_table.hpp"
 #include "engine/baseline/classical_tangent.hpp"
-#include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/mechanism/driven_flow.hpp"
 #include "engine/model/spins/spins.hpp"
+#include "engine/step/flow_method.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal::baselines {

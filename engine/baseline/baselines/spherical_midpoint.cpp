@@ -16,10 +16,10 @@
 #include <utility>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/flow_method.hpp"
 #include "engine/core/corrections.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/model/spins/spins.hpp"
+#include "engine/step/flow_method.hpp"
 
 namespace extremal::baselines {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A splitting of the user's: a product of kicks and drifts by their fractions of the step.
-#include "engine/baseline/partitioned.hpp"
 #include "engine/baseline/parts.hpp"
+#include "engine/baseline/splitting_baseline.hpp"
 #include "engine/baseline/typed_tableau.hpp"
-#include "engine/baseline/wave_splitting.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/model/phase_mechanics.hpp"
 #include "engine/model/wave/interaction.hpp"
 
 namespace extremal::baselines {
@@ -45,7 +45,7 @@ BaselineEntry splitting() {
     e.make = [](const System& system, const BaselineOptions& options) {
         const auto typed = typedSplitting(options.settings);
         const Splitting& made = typed->splitting;
-        if (system.parts.find<Wave>()) return makeWaveSplitting(system, options.step, made);
+        if (system.parts.find<Wave>()) return makeWaveSplittingBaseline(system, options.step, made);
         const bool isSeparable = flowOf(system).isSeparable;
         if (!isSeparable && (made.isNystrom || !made.stages.front().isKick || made.stages.size() % 2 == 0))
             throw InvalidScene(

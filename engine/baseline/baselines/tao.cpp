@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/parts.hpp"
 #include "engine/model/phase_mechanics.hpp"
+#include "engine/step/flow_method.hpp"
 
 namespace extremal::baselines {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/baseline/wave/coupled_waves.hpp"
-#include "engine/family/wave/wave_step.hpp"
+#include "engine/step/wave_step.hpp"
 
 namespace extremal {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/family/field/field_step.hpp"
-#include "engine/family/kick_drift_kick.hpp"
 #include "engine/model/density/cell_sum.hpp"
+#include "engine/step/kick_drift_kick.hpp"
 
 namespace extremal {
 namespace {

@@ -5,7 +5,7 @@
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/leapfrog_kernel.hpp"
 #include "engine/family/field/mass_matrix.hpp"
-#include "engine/family/kick_drift_kick.hpp"
+#include "engine/step/kick_drift_kick.hpp"
 
 namespace extremal {
 namespace {

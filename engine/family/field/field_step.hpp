@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "engine/family/time_table.hpp"
-#include "engine/family/field_march.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/field/spatial_form.hpp"
+#include "engine/step/field_march.hpp"
 
 namespace extremal {
 

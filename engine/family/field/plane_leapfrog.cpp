@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "engine/family/field/step_limit.hpp"
-#include "engine/family/field_march.hpp"
-#include "engine/family/kick_drift_kick.hpp"
 #include "engine/model/plane_field/problem.hpp"
+#include "engine/step/field_march.hpp"
+#include "engine/step/kick_drift_kick.hpp"
 
 namespace extremal {
 namespace {

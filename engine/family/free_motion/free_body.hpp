@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/family/body_method.hpp"
+#include "engine/step/body_method.hpp"
 
 namespace extremal {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/family/wave/wave_step.hpp"
+#include "engine/step/wave_step.hpp"
 
 namespace extremal {
 namespace {

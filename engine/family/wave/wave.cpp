@@ -7,14 +7,15 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/family/wave/gauss_waves.hpp"
 #include "engine/family/wave/wave_collocation.hpp"
 #include "engine/family/wave/wave_interacting.hpp"
 #include "engine/family/wave/wave_slabs.hpp"
-#include "engine/family/wave/wave_step.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
 #include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/interaction.hpp"
 #include "engine/solve/banded_poles.hpp"
+#include "engine/step/wave_step.hpp"
 
 namespace extremal {
 namespace {

@@ -2,9 +2,10 @@
 /// The one-step scheme by elimination in Fourier space (solve/banded_poles.hpp).
 #include <utility>
 
+#include "engine/family/wave/gauss_waves.hpp"
 #include "engine/family/wave/pade.hpp"
 #include "engine/family/wave/wave_solve.hpp"
-#include "engine/family/wave/wave_step.hpp"
+#include "engine/step/wave_step.hpp"
 
 namespace extremal {
 namespace {

@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "engine/core/catalog.hpp"
-#include "engine/family/wave/wave_step.hpp"
 #include "engine/quadrature/rule.hpp"
+#include "engine/step/wave_step.hpp"
 
 namespace extremal {
 

@@ -18,8 +18,8 @@
 
 #include <memory>
 
-#include "engine/family/wave/wave_step.hpp"
 #include "engine/model/wave/interaction.hpp"
+#include "engine/step/wave_step.hpp"
 
 namespace extremal {
 

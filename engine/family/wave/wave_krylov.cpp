@@ -3,9 +3,10 @@
 #include <optional>
 #include <utility>
 
+#include "engine/family/wave/gauss_waves.hpp"
 #include "engine/family/wave/pade.hpp"
 #include "engine/family/wave/wave_poles.hpp"
-#include "engine/family/wave/wave_step.hpp"
+#include "engine/step/wave_step.hpp"
 
 namespace extremal {
 namespace {

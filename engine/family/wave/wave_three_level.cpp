@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/family/wave/gauss_waves.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal {

@@ -20,7 +20,7 @@
 #include <memory>
 
 #include "engine/family/wave/wave_solve.hpp"
-#include "engine/family/wave/wave_step.hpp"
+#include "engine/step/wave_step.hpp"
 
 namespace extremal {
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "engine/baseline/partitioned.hpp"
 #include "engine/baseline/parts.hpp"
+#include "engine/step/partitioned.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/slope.hpp"
 #include "tests/tools/test.hpp"

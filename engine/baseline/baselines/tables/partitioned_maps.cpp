@@ -4,7 +4,7 @@
 ///     kick first      p_1 = p_0 + h pdot(q_0, p_1),  q_1 = q_0 + h qdot(q_0, p_1)
 ///     drift first     q_1 = q_0 + h qdot(q_1, p_0),  p_1 = p_0 + h pdot(q_1, p_0)
 /// Störmer-Verlet is the symmetric composition of the two, for any Hamiltonian.
-#include "engine/baseline/partitioned.hpp"
+#include "engine/baseline/splitting_baseline.hpp"
 
 namespace extremal::baselines {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Split-step methods of wave functions.
-#include "engine/baseline/wave_splitting.hpp"
+#include "engine/baseline/splitting_baseline.hpp"
 
 namespace extremal::baselines {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Splittings of Blanes and Moan (2002), whose coefficients are in splitting_table: S6 and S10 for any
 /// separable system, the Nyström ones for L = 1/2 sum m v^2 - V(t, q).
-#include "engine/baseline/partitioned.hpp"
+#include "engine/baseline/splitting_baseline.hpp"
 
 namespace extremal::baselines {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/family/field_march.hpp"
+#include "engine/step/field_march.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/baseline/wave_splitting.hpp"
+#include "engine/step/wave_splitting.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "engine/baseline/parts.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes_trigonometry.hpp"
-#include "engine/family/wave/wave.hpp"
-#include "engine/family/wave/wave_step.hpp"
 #include "engine/model/wave/interaction.hpp"
+#include "engine/step/wave_step.hpp"
 
 namespace extremal {
 namespace {
@@ -155,26 +153,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Integrator> makeWaveSplitting(const System& system, double step, const Splitting& splitting) {
-    requireSplit(system, "/baseline", "split-step",
-                 "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
     return std::make_unique<WaveSplitting>(system.hamiltonian(), step, splitting, couplingOf(system.parts));
-}
-
-BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description,
-                                    const Splitting& splitting) {
-    BaselineEntry e;
-    e.item = {std::move(id),
-              std::move(title),
-              std::move(description),
-              {},
-              Claims{splitting.order, true, true, {"norm"}},
-              "a wave function"};
-    e.takes = Takes::only<Wave, Interaction, Rotation>();
-    e.parts.set(OscillatorLimit(std::numeric_limits<double>::infinity()));
-    e.make = [splitting](const System& system, const BaselineOptions& options) {
-        return makeWaveSplitting(system, options.step, splitting);
-    };
-    return e;
 }
 
 }  // namespace extremal

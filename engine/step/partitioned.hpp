@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Symplectic Euler and Störmer-Verlet as products of four half-maps, for any Hamiltonian.
+/// Symplectic Euler, Störmer-Verlet and other splittings as products of four half-maps, for any Hamiltonian.
 ///
 ///     kickImplicit(s):  p <- p + s pdot(q, p_new)      kickExplicit(s):  p <- p + s pdot(q, p)
 ///     driftImplicit(s): q <- q + s qdot(q_new, p)      driftExplicit(s): q <- q + s qdot(q, p)
@@ -8,10 +8,10 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "engine/baseline/catalog.hpp"
+#include "engine/integrator/integrator.hpp"
+#include "engine/model/mechanics.hpp"
 #include "engine/tableau/splitting_table.hpp"
 
 namespace extremal {
@@ -21,24 +21,17 @@ enum class HalfMap { kickImplicit, kickExplicit, driftImplicit, driftExplicit };
 struct PartitionedStage {
     HalfMap map;
     double fraction;  ///< of the step
+    bool isKick() const { return map == HalfMap::kickImplicit || map == HalfMap::kickExplicit; }
 };
 
 /// A method that applies these stages in turn, each step.
 std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, double step,
                                             const std::vector<PartitionedStage>& stages);
 
-/// The catalogue's entry of such a method. Symplectic whatever the stages; stable on the oscillator up to
-/// step * frequency = 2, which all four compositions of one kick and one drift have in common.
-BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage> stages);
-
 /// The stages of a splitting. Where kicks and drifts are not explicit, symplectic Euler (kick first) with
 /// fraction c_1, its adjoint with c_2, Euler with c_3, ...: b_1 = c_1, a_1 = c_1 + c_2, b_2 = c_2 + c_3, ...
 /// has the same order for any Hamiltonian (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168). That is for
 /// splittings which start with a kick.
 std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool isSeparable);
-
-/// The catalogue's entry of a splitting of order splitting.order; Nystrom ones are for separable systems.
-BaselineEntry splittingBaseline(std::string id, std::string title, std::string description,
-                                const Splitting& splitting);
 
 }  // namespace extremal

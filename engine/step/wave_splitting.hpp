@@ -9,15 +9,13 @@
 
 #include <memory>
 
-#include "engine/baseline/catalog.hpp"
+#include "engine/integrator/integrator.hpp"
+#include "engine/model/system.hpp"
 #include "engine/tableau/splitting_table.hpp"
 
 namespace extremal {
 
+/// Of a wave function whose H is split.
 std::unique_ptr<Integrator> makeWaveSplitting(const System& system, double step, const Splitting& splitting);
-
-/// The catalogue's entry of a splitting for wave functions alone.
-BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description,
-                                    const Splitting& splitting);
 
 }  // namespace extremal

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <vector>
 
-#include "engine/family/field_march.hpp"
+#include "engine/step/field_march.hpp"
 
 namespace extremal {
 

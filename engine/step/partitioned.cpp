@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/baseline/partitioned.hpp"
+#include "engine/step/partitioned.hpp"
 
 #include <limits>
 #include <utility>
 
-#include "engine/baseline/coordinate_watch.hpp"
-#include "engine/baseline/flow_method.hpp"
-#include "engine/baseline/parts.hpp"
 #include "engine/core/corrections.hpp"
 #include "engine/integrator/shared_force.hpp"
+#include "engine/step/coordinate_watch.hpp"
+#include "engine/step/flow_method.hpp"
 
 namespace extremal {
 namespace {
-
-bool movesMomentum(HalfMap map) { return map == HalfMap::kickImplicit || map == HalfMap::kickExplicit; }
 
 /// Of a kick, with f' at (q_1, p_1): dp <- dp + s (pdot_q dq + pdot_p dp), where it is implicit with the new
 /// dp on the right; of a drift likewise. `isOwn`: whether the rate of what moves depends on it.
@@ -77,7 +74,7 @@ public:
             report.cost.evaluations = 0;
             for (const PartitionedStage& stage : stages_) {
                 const double s = stage.fraction * this->h();
-                if (movesMomentum(stage.map)) {
+                if (stage.isKick()) {
                     if (!isForceFresh) {
                         this->mechanics_.force(this->mechanics_.model.get(), state.t, q.data(),
                                                force_.data());
@@ -114,7 +111,7 @@ public:
         values[0] = 0;
         for (const PartitionedStage& stage : stages_) {
             const double s = stage.fraction * this->h();
-            if (movesMomentum(stage.map)) {
+            if (stage.isKick()) {
                 m.force(m.model.get(), this->startTime_, q.data(), force.data());
                 p += s * force;
                 values[0] -= s * m.energy(m.model.get(), this->startTime_, q.data(), zero.data());
@@ -137,7 +134,7 @@ private:
                tp = t;  // kicks and drifts each move their own clock: q and p are known at different times
         for (const PartitionedStage& stage : stages_) {
             const double s = stage.fraction * this->h();
-            const bool isKick = movesMomentum(stage.map);
+            const bool isKick = stage.isKick();
             const bool isImplicit = !this->mechanics_.isSeparable && (stage.map == HalfMap::kickImplicit ||
                                                                       stage.map == HalfMap::driftImplicit);
             const double at = isKick ? tq : tp;
@@ -219,21 +216,21 @@ std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, 
     return makeFlowMethod<Partitioned>(mechanics, step, stages);
 }
 
-BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage> stages) {
-    BaselineEntry e;
-    e.item = std::move(item);
-    e.parts.set(OscillatorLimit(2));
-    // Of separable systems, and exact: fractions are 1 and 1/2.
-    e.parts.set(BaselineTableau{[stages](const Settings&) {
-        std::vector<SplittingStage> flows;
-        for (const PartitionedStage& s : stages) flows.push_back({movesMomentum(s.map), s.fraction});
-        return tableauOf(flows, 1e-30);
-    }});
-    e.takes = flowProblems();
-    e.make = [stages = std::move(stages)](const System& system, const BaselineOptions& options) {
-        return makePartitioned(flowOf(system), options.step, stages);
-    };
-    return e;
+std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool isSeparable) {
+    std::vector<PartitionedStage> stages;
+    if (isSeparable) {
+        for (const SplittingStage& s : splitting.stages)
+            stages.push_back({s.isKick ? HalfMap::kickExplicit : HalfMap::driftExplicit, s.fraction});
+        return stages;
+    }
+    double c = 0;
+    bool isEuler = true;
+    for (std::size_t i = 0; i + 1 < splitting.stages.size(); ++i, isEuler = !isEuler) {
+        c = splitting.stages[i].fraction - c;
+        stages.push_back({isEuler ? HalfMap::kickImplicit : HalfMap::driftImplicit, c});
+        stages.push_back({isEuler ? HalfMap::driftExplicit : HalfMap::kickExplicit, c});
+    }
+    return stages;
 }
 
 }  // namespace extremal

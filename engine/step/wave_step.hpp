@@ -4,8 +4,7 @@
 /// v = e^{i Ec (t - t_0)/hbar} c is carried on by step(); the state gets c. t_0, the origin of the gauge, is
 /// any time: one-step methods take the node from which v was made last, methods of more levels the one that
 /// their memory names. As long as the state is the one that was handed out last, v goes on as it is: the
-/// phase is computed from t at every node. Internal to engine/family/wave and the baselines of wave
-/// functions.
+/// phase is computed from t at every node.
 #pragma once
 
 #include <memory>
@@ -92,13 +91,5 @@ private:
 
 /// <H> at a state; NaN where x is empty.
 double meanEnergy(const Hamiltonian& hamiltonian, const State& state);
-
-/// The three ways. Groups of `together` poles: 1, 2 or 4.
-std::unique_ptr<WaveStep> makeBandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
-                                         double shift, int degree, int together);
-std::unique_ptr<WaveStep> makeDenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
-                                        double shift, int degree);
-std::unique_ptr<WaveStep> makeKrylovWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
-                                         double shift, int degree, double tolerance, int maxIterations);
 
 }  // namespace extremal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/family/wave/wave_step.hpp"
+#include "engine/step/wave_step.hpp"
 
 #include <algorithm>
 #include <cmath>
