@@ -213,6 +213,8 @@ std::string mismatch(const Discretization& discretization, const System& system)
         return discretization.space.type + " is not for this " + system.id + ": " + because->reason;
     if (const std::string needed = neededInstead(family->takes, system.parts); !needed.empty())
         return discretization.space.type + " needs " + needed + ", which " + system.id + " is not";
+    if (const std::string reason = unmetReason(family->parts, system); !reason.empty())
+        return discretization.space.type + " is not for " + system.id + ": " + reason;
     if (!appliesTo(*family, system))
         return discretization.space.type + " needs " + family->item.needs + ", and " + system.id +
                " has none";

@@ -97,9 +97,11 @@ Method methodOf(const ResolvedScene& scene, const ResolvedScheme& scheme) {
     if (scheme.family) {
         const Discretization& d = scheme.discretization;
         const auto* const tables = scheme.family->parts.find<Tables>();
-        if (!tables || !(hasTable(d) || dependsOnStep(d.space))) refuse(reason);
-        method.table = tables->make(withStep(d.space, scheme.spec.step.value), d.quadrature);
-        return method;
+        if (tables && (hasTable(d) || dependsOnStep(d.space))) {
+            method.table = tables->make(withStep(d.space, scheme.spec.step.value), d.quadrature);
+            return method;
+        }
+        if (tables) refuse(reason);
     }
     if (!method.tableau) refuse(reason);
     if (method.tableau->scope != TableauScope::any)

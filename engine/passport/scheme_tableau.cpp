@@ -5,6 +5,7 @@
 
 #include "engine/baseline/parts.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/family/parts/step_tableau.hpp"
 #include "engine/family/parts/tables.hpp"
 #include "engine/model/phase_mechanics.hpp"
 
@@ -26,9 +27,9 @@ std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const Resol
         reason = "Steps that keep invariants are tested by other functions than those of a tableau here.";
         return nullptr;
     }
-    const auto* const tables = scheme.family ? scheme.family->parts.find<Tables>() : nullptr;
+    const auto* const ofFamily = scheme.family ? scheme.family->parts.find<StepTableau>() : nullptr;
     const auto* const own = scheme.baseline ? scheme.baseline->parts.find<BaselineTableau>() : nullptr;
-    if (!tables && !own) {
+    if (!ofFamily && !own) {
         reason = scheme.family
                      ? "Steps of the family \"" + scheme.family->item.title +
                            "\" are no Runge-Kutta method with constant coefficients."
@@ -38,9 +39,10 @@ std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const Resol
         return nullptr;
     }
     try {
-        auto tableau = tables ? tables->tableau(scheme.discretization, scheme.spec.step.value)
-                              : own->of(scheme.spec.baseline);
-        if (tables && isHamiltonian) {  // p is in the space of slopes by definition (phase/phase_cell.hpp)
+        auto tableau = ofFamily ? ofFamily->of(scheme.discretization, scheme.spec.step.value)
+                                : own->of(scheme.spec.baseline);
+        if (scheme.family && scheme.family->parts.find<Tables>() &&
+            isHamiltonian) {  // p is in the space of slopes by definition (phase/phase_cell.hpp)
             Tableau ofAny = *tableau;
             ofAny.scope = TableauScope::any;
             tableau = std::make_shared<const Tableau>(std::move(ofAny));

@@ -43,9 +43,9 @@ std::string refusalOf(const ResolvedScheme& scheme, const System& system) {
         return appliesTo(*scheme.family, system) ? std::string() : mismatch(scheme.discretization, system);
     const BaselineEntry& entry = *scheme.baseline;
     if (appliesTo(entry, system)) return {};
-    const auto* const condition = entry.parts.find<SystemCondition>();
-    if (condition && condition->reason && isTaken(entry.takes, system.parts))
-        return entry.item.id + " cannot integrate " + system.id + ": " + condition->reason(system);
+    if (isTaken(entry.takes, system.parts))
+        if (const std::string reason = unmetReason(entry.parts, system); !reason.empty())
+            return entry.item.id + " cannot integrate " + system.id + ": " + reason;
     if (const auto* const because = system.parts.find<RefusedBecause>())
         return entry.item.id + " cannot integrate " + system.id + ": " + because->reason;
     const std::string instead = neededInstead(entry.takes, system.parts);

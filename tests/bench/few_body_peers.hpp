@@ -65,6 +65,9 @@ void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& acc
                                      false, steps, longest,
                                      [&](double n) { return error(endOf(schemeOf(g), n)); }));
         }
+    for (const char* knots : {"strang", "srkn-6b", "srkn-11b", "srkn-14a", "blanes-moan-s10"})
+        curves.push_back(measure(std::string("free motion ") + knots, false, steps, longest,
+                                 [&](double n) { return error(endOf(freeMotion(knots), n)); }));
     for (const double order : {6, 8}) {
         const Make verlet = schemeOf(*namedScheme("stormer-verlet-pair"));
         const std::vector<double> parts = compositionParts({"kahan-li", {{"order", order}}, {}}, 2);

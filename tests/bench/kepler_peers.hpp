@@ -36,6 +36,9 @@ inline void kepler(PeerTable& table) {
         curves.push_back(measure("Gauss " + std::to_string(2 * s), false, steps, 0.05, [&](double n) {
             return run(schemeOf(*namedScheme("galerkin-gauss-" + std::to_string(s))), n);
         }));
+    for (const char* knots : {"srkn-11b", "srkn-14a", "blanes-moan-s10"})
+        curves.push_back(measure(std::string("free motion ") + knots, false, steps, 0.05,
+                                 [&](double n) { return run(freeMotion(knots), n); }));
     curves.push_back(measure("Gauss collocation 16", true, steps, 0.05, [&](double n) {
         return run(baselineOf("gauss-collocation", {{"stages", 8.0}}), n);
     }));

@@ -91,9 +91,6 @@ void turningBody(PeerTable& table, const char* title, const laws::KnownBody& kno
         curves.push_back(measure("lie-" + std::to_string(degree), false, steps, 0.02,
                                  [&](double n) { return run(schemeOf(laws::liePair(degree)), n); }));
     if (isTop) {
-        const auto freeMotion = [](const char* knots) {
-            return schemeOf({{"free-motion", {{"knots", knots}}, {}}, {"auto", {}, {}}, {}});
-        };
         for (const char* knots : {"strang", "srkn-6b", "srkn-11b", "srkn-14a"})
             curves.push_back(measure(std::string("free motion ") + knots, false, steps, 0.02,
                                      [&](double n) { return run(freeMotion(knots), n); }));

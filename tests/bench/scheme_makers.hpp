@@ -20,6 +20,11 @@ inline Make schemeOf(const Discretization& discretization) {
     };
 }
 
+/// Free motions between kicks at the knots of a splitting.
+inline Make freeMotion(const std::string& knots) {
+    return schemeOf({{"free-motion", {{"knots", knots}}, {}}, {"auto", {}, {}}, {}});
+}
+
 /// A baseline by its id; the setting of an adaptive one is its tolerance.
 inline Make baselineOf(const std::string& id, Value::Object keys = {}) {
     const BaselineEntry* entry = findBaseline(id);

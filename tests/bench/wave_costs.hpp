@@ -60,14 +60,18 @@ inline Discretization gauss(int degree, const char* solver, double tolerance) {
 /// n steps; the state at the end.
 using Method = std::function<std::vector<double>(const WaveProblem&, int n)>;
 
-inline Method pairMethod(int degree, const char* solver, double tolerance) {
+inline Method schemeMethod(const Discretization& discretization) {
     return [=](const WaveProblem& p, int n) {
-        const auto integrator = makeIntegrator(p.system, gauss(degree, solver, tolerance), {0, p.T / n});
+        const auto integrator = makeIntegrator(p.system, discretization, {0, p.T / n});
         State state = p.start;
         for (int k = 0; k < n; ++k)
             if (advance(*integrator, state).outcome != Outcome::converged) return std::vector<double>();
         return state.x;
     };
+}
+
+inline Method pairMethod(int degree, const char* solver, double tolerance) {
+    return schemeMethod(gauss(degree, solver, tolerance));
 }
 
 inline Method baselineMethod(const char* id) {

@@ -25,6 +25,9 @@ inline void waves(PeerTable& table) {
             for (const double tolerance : {0.0, 1e-10})
                 add("Gauss " + std::to_string(2 * degree) + (tolerance > 0 ? " in fours" : " in pairs"),
                     false, pairMethod(degree, "banded", tolerance));
+        for (const char* knots : {"strang", "suzuki-4", "srkn-6b", "srkn-11b", "srkn-14a"})
+            add(std::string("free motion ") + knots, false,
+                schemeMethod({{"free-motion", {{"knots", knots}}, {}}, {"auto", {}, {}}, {}}));
         add("SRKN 14a by hand", true, bareSrkn14a);
         for (const char* id : {"srkn-14a", "srkn-11b", "strang", "chebyshev-propagation"})
             add(id, true, baselineMethod(id));

@@ -11,7 +11,7 @@
 #include "engine/baseline/parts.hpp"
 #include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/family/parts/tables.hpp"
+#include "engine/family/parts/step_tableau.hpp"
 #include "engine/scene/outlook/scheme_stability.hpp"
 #include "engine/tableau/tableau.hpp"
 #include "tests/laws/catalogue.hpp"
@@ -45,11 +45,11 @@ struct StepTrace {
 
 StepTrace traceOf(const ResolvedScheme& scheme) {
     constexpr int fewStages = 6, mostStages = 20;
-    const auto* const tables = scheme.family ? scheme.family->parts.find<Tables>() : nullptr;
+    const auto* const ofFamily = scheme.family ? scheme.family->parts.find<StepTableau>() : nullptr;
     const auto* const own = scheme.baseline ? scheme.baseline->parts.find<BaselineTableau>() : nullptr;
-    if (!tables && !own) return {};
+    if (!ofFamily && !own) return {};
     try {
-        const auto part = tables ? tables->tableau(scheme.discretization, 1) : own->of(scheme.spec.baseline);
+        const auto part = ofFamily ? ofFamily->of(scheme.discretization, 1) : own->of(scheme.spec.baseline);
         const Tableau whole =
             scheme.isComposed() ? composed(*part, {scheme.parts.begin(), scheme.parts.end()}) : *part;
         if (whole.forces() > mostStages) return {};

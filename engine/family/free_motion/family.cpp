@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Free motion between kicks of the potential: the explicit schemes of rigid bodies (Leok 2004, sec. 3 for
-/// curves on groups; Blanes and Moan 2002 for the knots).
+/// Free motion between kicks of the potential: the explicit schemes of coordinates with constant masses, of
+/// rigid bodies and of wave functions (Leok 2004, sec. 2, 3 and 8 for the spaces; Blanes and Moan 2002 for
+/// the knots).
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/core/problem.hpp"
 #include "engine/family/family.hpp"
-#include "engine/family/free_motion/free_motion.hpp"
+#include "engine/family/free_motion/free_body_motion.hpp"
 #include "engine/family/parts/conditions.hpp"
+#include "engine/family/parts/described_on_system.hpp"
+#include "engine/family/parts/step_tableau.hpp"
 #include "engine/family/parts/variant.hpp"
+#include "engine/integrator/oscillator_step.hpp"
+#include "engine/model/phase_mechanics.hpp"
+#include "engine/model/wave/interaction.hpp"
+#include "engine/step/partitioned.hpp"
+#include "engine/step/wave_splitting.hpp"
 
 namespace extremal::family {
 namespace {
@@ -20,21 +29,25 @@ namespace {
 struct NamedSplitting {
     const char* id;
     const char* shortName;
+    const char* knownAs;
     Splitting (*make)();
 };
-constexpr std::array<NamedSplitting, 7> splittings{{{"strang", "F2", strang},
-                                                    {"suzuki-4", "F4s", suzuki4},
-                                                    {"blanes-moan-s6", "F4b", blanesMoanS6},
-                                                    {"srkn-6b", "F4", srkn6b},
-                                                    {"blanes-moan-s10", "F6b", blanesMoanS10},
-                                                    {"srkn-11b", "F6", srkn11b},
-                                                    {"srkn-14a", "F6a", srkn14a}}};
+constexpr std::array<NamedSplitting, 7> splittings{
+    {{"strang", "F2", "Strang splitting", strang},
+     {"suzuki-4", "F4s", "Suzuki 4", suzuki4},
+     {"blanes-moan-s6", "F4b", "Blanes-Moan S6", blanesMoanS6},
+     {"srkn-6b", "F4", "Blanes-Moan SRKN 6b", srkn6b},
+     {"blanes-moan-s10", "F6b", "Blanes-Moan S10", blanesMoanS10},
+     {"srkn-11b", "F6", "Blanes-Moan SRKN 11b", srkn11b},
+     {"srkn-14a", "F6a", "Blanes-Moan SRKN 14a", srkn14a}}};
 
 const NamedSplitting& splittingOf(const Settings& space) {
     const std::string id = space.text("knots");
     return *std::find_if(splittings.begin(), splittings.end(),
                          [&](const NamedSplitting& each) { return id == each.id; });
 }
+
+constexpr const char* needed = "a kinetic energy whose motion is known, and a potential";
 
 SpaceEntry freeMotions() {
     std::vector<std::string> ids;
@@ -48,7 +61,7 @@ SpaceEntry freeMotions() {
                      "Where the knots are on the step and what the kicks weigh: strang (order 2), suzuki-4, "
                      "blanes-moan-s6, srkn-6b (4), blanes-moan-s10, srkn-11b, srkn-14a (6).")},
         {},
-        "a rigid body with a potential"};
+        needed};
     return e;
 }
 
@@ -61,17 +74,47 @@ Properties describeFreeMotion(const Discretization& d) {
     p.claims = {splitting.order, true, true, {"momentum"}};
     p.curveOrder = std::min(splitting.order, 4);  // cubic Hermite interpolation
     p.space = "free motions with " + std::to_string(kicks) + " kicks";
-    p.knownAs = std::string("free motion, ") + named.id;
+    p.knownAs = named.knownAs;
     p.shortName = named.shortName;
     p.isExplicit = true;
+    p.stabilityLimit = stabilityLimit(splitting);
+    return p;
+}
+
+/// Bodies and wave functions have no limit on the harmonic oscillator.
+std::optional<Properties> describeOn(const Discretization& d, const System& system) {
+    Properties p = describeFreeMotion(d);
+    if (system.parts.find<Wave>()) {
+        p.claims.conserves = {"norm"};
+        p.curveOrder = p.claims.order;  // shorter steps
+    } else if (!system.parts.find<Body>()) {
+        return p;
+    }
     p.stabilityLimit = std::numeric_limits<double>::infinity();
     return p;
 }
 
-std::string mismatchOf(const Discretization&, const System& system) {
-    return system.body().isFree() ? "the free motion of a body without a potential is its motion, and "
-                                    "nothing is left to discretize"
-                                  : std::string();
+/// Why the free motion of a system is no space of curves; empty if it is.
+std::string unknownBecause(const System& system) {
+    if (system.parts.find<Wave>())
+        return system.hamiltonian()->isSplit()
+                   ? std::string()
+                   : "free waves are exact in a periodic domain with a potential at its nodes alone";
+    if (system.parts.find<Body>())
+        return system.body().isFree() ? "the free motion of a body without a potential is its motion, and "
+                                        "nothing is left to discretize"
+                                      : std::string();
+    return flowOf(system).isSeparable
+               ? std::string()
+               : "free motions are straight lines only where masses are constant and the potential depends "
+                 "on the place alone";
+}
+
+std::unique_ptr<Integrator> makeOn(const System& system, const Discretization& d, double step) {
+    const Splitting splitting = splittingOf(d.space).make();
+    if (system.parts.find<Wave>()) return makeWaveSplitting(system, step, splitting);
+    if (system.parts.find<Body>()) return makeFreeBodyMotion(system, splitting, step);
+    return makePartitioned(flowOf(system), step, partitionedStages(splitting, true));
 }
 
 ChoiceGrid choices(const System&) {
@@ -84,33 +127,28 @@ ChoiceGrid choices(const System&) {
         cell.discretization.quadrature = {"auto", {}, {}};
         cell.text = each.shortName;
         cell.id = std::string("free-motion.") + each.id;
-        cell.title = describe(cell.discretization).knownAs;
+        cell.title = std::string("free motion, ") + each.id;
         grid.cells.push_back(std::move(cell));
     }
     return grid;
 }
 
 WrittenAction written(const Discretization&) {
-    return {"The curve is a free motion between knots g_j of the step, whose distances in time are a_j h.",
-            {{"S = Σ_j S_T(g_{j−1}, g_j; a_j h) − h Σ_j b_j U(g_j)",
-              "S = \\sum_j S_T(g_{j-1}, g_j; a_j h) - h \\sum_j b_j\\, U(g_j)"}},
-            {{"Π_j⁺ = Π_j⁻ − b_j h g_j* dU(g_j)  at every knot",
-              "\\Pi_j^+ = \\Pi_j^- - b_j h\\, g_j^* dU(g_j) \\quad \\text{at every knot}"}}};
+    return {"The curve is a free motion between knots x_j of the step, whose distances in time are a_j h.",
+            {{"S = Σ_j S_T(x_{j−1}, x_j; a_j h) − h Σ_j b_j U(x_j)",
+              "S = \\sum_j S_T(x_{j-1}, x_j; a_j h) - h \\sum_j b_j\\, U(x_j)"}},
+            {{"p_j⁺ = p_j⁻ − b_j h dU(x_j)  at every knot",
+              "p_j^+ = p_j^- - b_j h\\, dU(x_j) \\quad \\text{at every knot}"}}};
 }
 
 }  // namespace
 
 Family free_motion() {
     Family f;
-    f.item = {"free_motion",
-              "free motion",
-              "Free motions between kicks of the potential.",
-              {},
-              {},
-              "a rigid body with a potential"};
-    f.source = "Leok 2004, sec. 3";
+    f.item = {"free_motion", "free motion", "Free motions between kicks of the potential.", {}, {}, needed};
+    f.source = "Leok 2004, sec. 2, 3 and 8";
     f.spaces = {freeMotions()};
-    f.takes = Takes::only<Body>();
+    f.takes = flowProblems().with<Body, Wave, Interaction, Rotation>();
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // its nodes are the knots
     };
@@ -119,12 +157,13 @@ Family free_motion() {
     f.choices = choices;
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
     f.written = written;
-    f.make = [](const System& system, const Discretization& d, double step) {
-        if (const std::string problem = mismatchOf(d, system); !problem.empty())
-            throw InvalidScene("/space/type", problem, "a scheme on its group");
-        return makeFreeMotion(system, splittingOf(d.space).make(), step);
-    };
-    f.parts.set(SchemeCondition{mismatchOf});
+    f.make = makeOn;
+    f.parts.set(
+        SystemCondition{[](const System& system) { return unknownBecause(system).empty(); }, unknownBecause});
+    f.parts.set(DescribedOnSystem{describeOn});
+    f.parts.set(StepTableau{[](const Discretization& d, double) {
+        return tableauOf(splittingOf(d.space).make().stages, 1e-15);  // printed to 15 digits
+    }});
     f.parts.set(Variant{});
     return f;
 }

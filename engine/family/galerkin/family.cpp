@@ -23,6 +23,7 @@
 #include "engine/family/parts/described_on_system.hpp"
 #include "engine/family/parts/references.hpp"
 #include "engine/family/parts/solver_methods.hpp"
+#include "engine/family/parts/step_tableau.hpp"
 #include "engine/family/parts/tables.hpp"
 #include "engine/family/parts/written_on_system.hpp"
 #include "engine/family/rule_choices.hpp"
@@ -32,8 +33,8 @@
 #include "engine/family/table_properties.hpp"
 #include "engine/integrator/condensed.hpp"
 #include "engine/mechanism/mechanism.hpp"
-#include "engine/model/spins/spins.hpp"
 #include "engine/model/mechanisms.hpp"
+#include "engine/model/spins/spins.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/typed.hpp"
 
@@ -276,7 +277,8 @@ Family galerkin() {
         }});
     f.parts.set(
         Tables{[](const Discretization& d) { return !galerkin::isSplit(d) && !dependsOnStep(d.space); },
-               galerkin::makeTable, tableauAt, galerkin::oscillatorOf});
+               galerkin::makeTable, galerkin::oscillatorOf});
+    f.parts.set(StepTableau{tableauAt});
     return f;
 }
 

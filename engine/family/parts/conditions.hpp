@@ -26,6 +26,13 @@ struct SchemeCondition {
     std::string (*mismatch)(const Discretization&, const System&) = nullptr;
 };
 
+/// Why a system that a method takes does not meet its condition; empty where it does, or no reason is known.
+inline std::string unmetReason(const Parts& parts, const System& system) {
+    const auto* const condition = parts.find<SystemCondition>();
+    return condition && condition->reason && !condition->holds(system) ? condition->reason(system)
+                                                                       : std::string();
+}
+
 /// Whether the system meets the condition among the parts of a method, if there is one.
 inline bool meetsCondition(const Parts& parts, const System& system) {
     const auto* const condition = parts.find<SystemCondition>();

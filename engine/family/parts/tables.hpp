@@ -2,8 +2,6 @@
 /// The part of families whose steps are made of a table: space x quadrature.
 #pragma once
 
-#include <memory>
-
 #include "engine/family/discretization.hpp"
 #include "engine/model/parts.hpp"
 
@@ -11,7 +9,6 @@ namespace extremal {
 
 template <class T>
 struct Table;
-struct Tableau;
 class OscillatorStep;
 
 /// A family without it has steps of its own, which no table describes.
@@ -21,8 +18,6 @@ struct Tables {
     bool (*isOne)(const Discretization&) = nullptr;
     /// The one table of a space and a rule, where neither the system nor the step is in it.
     Table<double> (*make)(const Settings& space, const Settings& quadrature) = nullptr;
-    /// The step as a Runge-Kutta method. Throws InvalidScene, with the reason, where it is not one.
-    std::shared_ptr<const Tableau> (*tableau)(const Discretization&, double step) = nullptr;
     /// The step on the harmonic oscillator in quadruple precision, of one with one table. Throws InvalidScene
     /// where its functions are not known to it.
     OscillatorStep (*oscillator)(const Settings& space, const Settings& quadrature) = nullptr;

@@ -8,6 +8,8 @@
 
 #include "engine/baseline/parts.hpp"
 #include "engine/core/memo_cache.hpp"
+#include "engine/core/text/text.hpp"
+#include "engine/family/parts/step_tableau.hpp"
 #include "engine/family/parts/tables.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 #include "engine/integrator/stability.hpp"
@@ -49,8 +51,12 @@ std::optional<OscillatorStep> oscillatorStep(const ResolvedScheme& scheme) {
         return step;
     };
     if (scheme.family) {
-        if (!hasTable(scheme.discretization)) return {};
-        return whole(tableStep(scheme.discretization));
+        if (hasTable(scheme.discretization)) return whole(tableStep(scheme.discretization));
+        const auto* const tableau = scheme.family->parts.find<StepTableau>();
+        const bool isOne = tableau && !scheme.family->parts.find<Tables>() &&
+                           std::isfinite(scheme.properties.stabilityLimit);
+        if (!isOne) return {};
+        return whole(OscillatorStep(tableau->of(scheme.discretization, scheme.spec.step.value)));
     }
     const auto* const tableau = scheme.baseline->parts.find<BaselineTableau>();
     if (!tableau || !scheme.claims.isSymplectic) return {};
@@ -101,7 +107,9 @@ Facts stabilityOf(const ResolvedScheme& scheme) {
     bare.isEnabled = bare.allowsUnstable = true;
     bare.step = {};
     bare.solver = {"auto", {}, {}};
-    return known.get(writeJson(schemeValue(bare)), [&] { return computed(scheme); });
+    // Some families have another limit on other systems.
+    const std::string key = writeJson(schemeValue(bare)) + formatNumber(scheme.properties.stabilityLimit);
+    return known.get(key, [&] { return computed(scheme); });
 }
 
 }  // namespace extremal

@@ -12,7 +12,7 @@
 #include "engine/tableau/splitting_table.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/family.hpp"
-#include "engine/family/parts/tables.hpp"
+#include "engine/family/parts/step_tableau.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/tableau/order_conditions.hpp"
 #include "engine/tableau/tableau.hpp"
@@ -122,7 +122,7 @@ double distance(const Tableau::Matrix& a, const LongMatrix& b) {
 
 std::shared_ptr<const Tableau> tableauOf(const std::string& scheme, double step = 0.1) {
     const Discretization d = *namedScheme(scheme);
-    return familyPart<Tables>(d.space)->tableau(d, step);
+    return familyPart<StepTableau>(d.space)->of(d, step);
 }
 
 std::shared_ptr<const Tableau> baselineTableau(const std::string& id, const Settings& settings = {}) {
@@ -289,7 +289,7 @@ private slots:
     void otherSpacesHaveTableaus() {
         const auto of = [](const Settings& space, const Settings& rule) {
             const Settings complete = completeQuadrature(space, rule);
-            return familyPart<Tables>(space)->tableau({space, complete, {}}, 0.1);
+            return familyPart<StepTableau>(space)->of({space, complete, {}}, 0.1);
         };
         const Settings spline{"spline", {{"degree", 2.0}, {"cells", 2.0}}, {}};
         const auto t = of(spline, {"gauss", {}, {}});

@@ -8,8 +8,8 @@ StepEquations free_motion() {
     StepEquations e;
     e.family = "free_motion";
     e.matrix.instead = "made of free motions and kicks in turn, each of which is explicit";
-    e.functions.instead = e.actions.instead = "free motions of a body, which no table of functions describes";
-    e.spaceFunctions.instead = "free motions of a body, functions of time alone";
+    e.functions.instead = e.actions.instead = "free motions, which no table of functions describes";
+    e.spaceFunctions.instead = "free motions, functions of time alone";
     return e;
 }
 

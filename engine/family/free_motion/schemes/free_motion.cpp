@@ -6,15 +6,13 @@ namespace extremal::schemes {
 
 SchemeEntry free_motion() {
     SchemeEntry e;
-    e.item = {
-        "free-motion-<s>",
-        "free motion",
-        "Free motions of a rigid body between kicks of its potential: explicit, order 2s (strang, srkn-6b, "
-        "srkn-11b).",
-        {},
-        {},
-        "a rigid body with a potential"};
-    e.source = "Leok 2004, sec. 3";
+    e.item = {"free-motion-<s>",
+              "free motion",
+              "Free motions between kicks of the potential: explicit, order 2s (strang, srkn-6b, srkn-11b).",
+              {},
+              {},
+              "a kinetic energy whose motion is known, and a potential"};
+    e.source = "Leok 2004, sec. 2, 3 and 8";
     e.minDegree = 1;
     e.maxDegree = 3;
     e.make = [](int s) {

@@ -18,6 +18,6 @@
 namespace extremal {
 
 /// Of a rigid body with a potential.
-std::unique_ptr<Integrator> makeFreeMotion(const System& system, const Splitting& splitting, double step);
+std::unique_ptr<Integrator> makeFreeBodyMotion(const System& system, const Splitting& splitting, double step);
 
 }  // namespace extremal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/family/free_motion/free_motion.hpp"
+#include "engine/family/free_motion/free_body_motion.hpp"
 
 #include <limits>
 #include <type_traits>
@@ -63,7 +63,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeFreeMotion(const System& system, const Splitting& splitting, double step) {
+std::unique_ptr<Integrator> makeFreeBodyMotion(const System& system, const Splitting& splitting,
+                                               double step) {
     return std::make_unique<FreeMotion>(system, splitting, step);
 }
 
