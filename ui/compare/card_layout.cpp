@@ -12,6 +12,7 @@ namespace {
 
 constexpr int gap = 10, stageHeight = 225, stageHeightAlone = 240, leastPlot = 168, easyPlot = 206;
 constexpr int leastSquare = 210, largestSquare = 360;
+constexpr int besideOthers = 60;    // what a square may take of the width of others
 constexpr int leastJoined = 230;    // the width of a card that joins a full row
 constexpr double stageShare = 1.4;  // of the width, where a plot has 1
 
@@ -114,12 +115,18 @@ std::vector<CardLayout::Row> CardLayout::rows(int width, int plotHeight) const {
     return all;
 }
 
+/// The height of a row up to which its squares are about square.
+int CardLayout::highest(const Row& row, int width) const {
+    const auto count = static_cast<int>(row.to - row.from);
+    return (width - gap * (count - 1)) / count + (row.squares < count ? besideOthers : 0);
+}
+
 /// Squares as wide as the row is high; the others share what is left, but no one is very narrow.
 std::vector<int> CardLayout::widths(const Row& row, int width, int height) const {
     const auto count = static_cast<int>(row.to - row.from);
     const int room = width - gap * (count - 1);
     const bool isMixed = row.squares > 0 && row.squares < count;
-    const int side = isMixed ? std::min(height, room / count + 60) : 0;
+    const int side = isMixed ? std::min(height, highest(row, width)) : 0;
     double shares = 0;
     const auto shareOf = [&](std::size_t i) {
         if (isMixed && cards_[i].shape == CardShape::square) return 0.0;
@@ -150,8 +157,11 @@ void CardLayout::setGeometry(const QRect& rect) {
     const QRect inside = rect.marginsRemoved(contentsMargins());
     std::vector<Row> all = rows(inside.width());
     int used = -gap, stretch = 0;
+    // Squares grow where nothing else could.
+    const bool onlySquares =
+        std::all_of(all.begin(), all.end(), [](const Row& row) { return row.squares > 0; });
     const auto stretchOf = [&](const Row& row) {
-        return row.squares > 0 && all.size() > 1 ? 0 : row.hasStage ? 6 : 5;
+        return row.squares > 0 && !onlySquares ? 0 : row.hasStage ? 6 : 5;
     };
     for (const Row& row : all) {
         used += row.height + gap;
@@ -162,8 +172,10 @@ void CardLayout::setGeometry(const QRect& rect) {
     for (const Row& row : all) {
         stretched += stretchOf(row);
         const int share = stretch > 0 ? spare * stretched / stretch : 0;
-        const int height = row.height + share - given;
+        int height = row.height + share - given;
         given = share;
+        if (row.squares > 0 && all.size() > 1)
+            height = std::min(height, std::max(row.height, highest(row, inside.width())));
         const std::vector<int> across = widths(row, inside.width(), height);
         int x = inside.left();
         for (std::size_t i = row.from; i < row.to; ++i) {

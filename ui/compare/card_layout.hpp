@@ -4,7 +4,7 @@
 ///
 /// With n columns a row takes n cards; one card that would be left over joins the row before it if that has a
 /// square, else it has a row to itself. What height the window has beyond the least that all rows need goes
-/// to the rows without squares. Where the rows have to scroll, those in sight at first fill it, so that none
+/// to the rows without squares, or where there are none to the squares. Where the rows have to scroll, those in sight at first fill it, so that none
 /// is cut, and the stage has the largest share.
 #pragma once
 
@@ -54,6 +54,7 @@ private:
     std::vector<Row> rows(int width) const;
     std::vector<Row> rows(int width, int plotHeight) const;
     void fillSight(std::vector<Row>& rows) const;
+    int highest(const Row& row, int width) const;
     std::vector<int> widths(const Row& row, int width, int height) const;
 
     std::vector<Placed> cards_;

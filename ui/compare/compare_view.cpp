@@ -54,6 +54,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     auto* scroll = scroll_ = new QScrollArea;
+    scroll->setAccessibleName(tr("Plots"));
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

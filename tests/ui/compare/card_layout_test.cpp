@@ -57,6 +57,29 @@ private slots:
                     qPrintable(QString("%1 x %2").arg(width).arg(sight)));
             }
     }
+    /// Where every row has a square they take the height that is left, as long as they stay about square.
+    void squaresGrowWhereNothingElseCan() {
+        QWidget page;
+        auto* layout = new CardLayout(&page);
+        layout->setContentsMargins(0, 0, 0, 0);
+        layout->setColumns(3);
+        layout->addCard(new QWidget(&page), CardShape::stage);
+        for (int i = 0; i < 5; ++i) layout->addCard(new QWidget(&page), CardShape::square);
+        layout->setSight(920);
+        layout->setGeometry({0, 0, 1500, 920});
+        int last = 0;
+        for (int i = 0; i < layout->count(); ++i) {
+            const QRect card = layout->itemAt(i)->geometry();
+            last = std::max(last, card.bottom() + 1);
+            QVERIFY2(i == 0 || card.height() * 4 <= card.width() * 5,
+                     qPrintable(QString("%1 x %2").arg(card.width()).arg(card.height())));
+        }
+        QCOMPARE(last, 920);
+        // In a narrow and high window they stay square.
+        layout->setGeometry({0, 0, 800, 1400});
+        const QRect card = layout->itemAt(5)->geometry();
+        QVERIFY(card.height() * 4 <= card.width() * 5 && card.height() > 210);
+    }
     void rowsThatScrollAreHigher() {
         QWidget page;
         auto* layout = new CardLayout(&page);
