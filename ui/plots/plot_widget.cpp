@@ -142,7 +142,14 @@ void PlotWidget::showAll() {
 }
 
 void PlotWidget::back() {
-    if (!impl_->content->view().back()) return;
+    if (impl_->content->view().back()) showOtherView();
+}
+
+void PlotWidget::forward() {
+    if (impl_->content->view().forward()) showOtherView();
+}
+
+void PlotWidget::showOtherView() {
     impl_->chip->setVisible(isUserZoomed());
     if (impl_->isTime())
         emit timeRangeChanged(impl_->content->view().isUserChosen(PlotAxis::x)
@@ -220,7 +227,7 @@ void PlotWidget::resizeEvent(QResizeEvent* event) {
 
 void PlotWidget::keyPressEvent(QKeyEvent* event) {
     if (event->key() == Qt::Key_Backspace)
-        back();
+        (event->modifiers() & Qt::ShiftModifier) ? forward() : back();
     else if (event->matches(QKeySequence::Copy))
         copyImage();
     else if (const auto cell = impl_->cellAt(impl_->content->cursors().hoverPoint);

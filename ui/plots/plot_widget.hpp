@@ -49,7 +49,8 @@ public:
     void setClickable(bool isClickable);
     void fit();      ///< to the part the view asks for, else to all data
     void showAll();  ///< all data, also where the view asks for a part
-    void back();
+    void back();     ///< to the view before
+    void forward();  ///< to the view that back() left
     void copyImage();
     void saveDialog();
     /// PNG, PDF, SVG or CSV by the ending. False, with the reason, if it cannot be written.
@@ -99,6 +100,7 @@ private:
     void zoomToBox();
     void click(QPointF at);
     void afterZoom();
+    void showOtherView();
     void hoverAt(QPointF at);
     void leaveCell();
     void clearHover();

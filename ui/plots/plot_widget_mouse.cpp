@@ -242,6 +242,7 @@ void PlotWidget::openMenu(const QContextMenuEvent& context) {
     menu.addAction(tr("Fit"), this, &PlotWidget::fit);
     if (figure().x.whole) menu.addAction(tr("Show all data"), this, &PlotWidget::showAll);
     menu.addAction(tr("Previous view"), this, &PlotWidget::back);
+    menu.addAction(tr("Next view"), this, &PlotWidget::forward);
     menu.addSeparator();
     if (s.isTime()) {
         menu.addAction(tr("Pin a second cursor here"), this, [this, t] { emit pinRequested(t); });

@@ -59,10 +59,22 @@ bool ViewState::back() {
         const View earlier = history_.back();
         history_.pop_back();
         if (earlier == current_) continue;
+        left_.push_back({current_, earlier});
         current_ = earlier;
         return true;
     }
     return false;
+}
+
+bool ViewState::forward() {
+    if (left_.empty() || left_.back().to != current_) {
+        left_.clear();
+        return false;
+    }
+    remember();
+    current_ = left_.back().view;
+    left_.pop_back();
+    return true;
 }
 
 }  // namespace extremal

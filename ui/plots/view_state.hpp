@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What part of a plot is visible: ranges fitted to the data, ranges the user chose, and the way back.
+/// What part of a plot is visible: ranges fitted to the data, ranges the user chose, and the way back and
+/// forward.
 ///
 /// Once the user has zoomed or panned an axis, new data do not move it; fit() gives it back. All changes work
 /// in axis space, the logarithm on logarithmic axes. Ranges stay finite, increasing and wide enough to be
@@ -37,8 +38,12 @@ public:
     void choose(PlotAxis axis, PlotRange range);
     void fit(PlotAxis axis) { current_.isChosen[index(axis)] = false; }
     void fit() { current_.isChosen = {false, false}; }
-    bool back();  ///< false if there is no earlier view
-    void forget() { history_.clear(); }
+    bool back();     ///< false if there is no earlier view
+    bool forward();  ///< undoes back(); false if the view was changed since
+    void forget() {
+        history_.clear();
+        left_.clear();
+    }
 
 private:
     struct View {
@@ -54,6 +59,10 @@ private:
     std::array<PlotRange, 2> fitted_;
     View current_;
     std::vector<View> history_;
+    struct Left {
+        View view, to;
+    };
+    std::vector<Left> left_;  ///< by back()
 };
 
 }  // namespace extremal

@@ -162,6 +162,9 @@ private slots:
         QCOMPARE(plot->visibleRange(PlotAxis::x), panned);
         QTest::keyClick(plot.get(), Qt::Key_Backspace);
         QCOMPARE(plot->visibleRange(PlotAxis::x), start);
+        QTest::keyClick(plot.get(), Qt::Key_Backspace, Qt::ShiftModifier);
+        QCOMPARE(plot->visibleRange(PlotAxis::x), panned);
+        QTest::keyClick(plot.get(), Qt::Key_Backspace);
         QTest::mouseDClick(&c, Qt::LeftButton, {}, m);
         QVERIFY(!plot->isUserZoomed());
     }

@@ -51,6 +51,28 @@ private slots:
         QVERIFY(!view.isUserChosen());
         QVERIFY(!view.back());
     }
+    void forwardUndoesBackUntilTheViewIsChanged() {
+        ViewState view;
+        view.setFitted(PlotAxis::x, {0, 8});
+        for (const PlotRange range : {PlotRange{0, 4}, PlotRange{1, 2}}) {
+            view.remember();
+            view.choose(PlotAxis::x, range);
+        }
+        QVERIFY(!view.forward());
+        QVERIFY(view.back() && view.back());
+        view.remember();  // of a gesture that does nothing
+        QVERIFY(view.forward());
+        QCOMPARE(view.range(PlotAxis::x), (PlotRange{0, 4}));
+        QVERIFY(view.forward());
+        QCOMPARE(view.range(PlotAxis::x), (PlotRange{1, 2}));
+        QVERIFY(!view.forward());
+        QVERIFY(view.back());
+        QCOMPARE(view.range(PlotAxis::x), (PlotRange{0, 4}));
+        view.remember();
+        view.choose(PlotAxis::x, {5, 6});
+        QVERIFY(!view.forward());
+        QCOMPARE(view.range(PlotAxis::x), (PlotRange{5, 6}));
+    }
     /// A gesture that changed nothing is not a step back.
     void backSkipsWhatDidNothing() {
         ViewState view;
