@@ -94,6 +94,7 @@ OwnWindow::OwnWindow(Workspace& workspace, Notices& notices, const Theme& theme,
     auto* layout = new QHBoxLayout(this);
     makeForm();
     auto* scroll = new QScrollArea;
+    scroll->setAccessibleName(tr("Space and rule"));
     scroll->setWidget(form_);
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);

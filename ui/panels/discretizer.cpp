@@ -227,6 +227,7 @@ Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
         showUses();
     });
     room_ = new SidewaysArea;
+    room_->setAccessibleName(tr("Discretizer"));
     body()->addWidget(room_);
     about_ = makeLabel({}, "caption");
     about_->setObjectName("aboutCell");

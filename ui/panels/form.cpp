@@ -60,6 +60,7 @@ void Form::addRow(FormField field) {
     name->setText(label);
     name->setWordWrap(true);  // narrow panels; then as wide as its longest word
     name->setBuddy(edit);
+    edit->setAccessibleName(QString::fromStdString(info.title));  // not that of the label, which has markup
     constexpr int roomOfUnit = 72;  // a longer one would leave the field no room
     const QString unitText = QString::fromStdString(info.unit);
     auto* unit = makeLabel(fontMetrics().elidedText(unitText, Qt::ElideRight, roomOfUnit), "caption");

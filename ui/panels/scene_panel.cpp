@@ -286,6 +286,8 @@ void ScenePanel::rebuild() {
     shownInitial_ = keys;
     model_->setCurrentIndex(model_->findData(QString::fromStdString(shownModel_)));
     model_->setToolTip(QString::fromStdString(entry->item.description));
+    // The name of a box is read as its text.
+    model_->setAccessibleDescription(tr("Model: %1").arg(model_->toolTip()));
     const System& system = *workspace_.resolved()->system;
     parameters_->setFields(isTyped(*entry) ? std::vector<FormField>{} : parameterFields(workspace_, *entry));
     parameters_->setVisible(!isTyped(*entry));

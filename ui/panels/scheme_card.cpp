@@ -131,13 +131,12 @@ void SchemeCard::makeHeader() {
     stepEdit_->setProperty("room", "step");
     stepEdit_->hide();
     connect(stepEdit_, &QLineEdit::editingFinished, this, &SchemeCard::finishStep);
-    auto* dots = new QToolButton;
+    auto* const dots = dots_ = new QToolButton;
     dots->setText(QStringLiteral("⋯"));
     dots->setFixedSize(22, 20);
     dots->setProperty("kind", "dots");
     dots->setPopupMode(QToolButton::InstantPopup);
     dots->setToolTip(tr("Edit, duplicate, remove, ..."));
-    dots->setAccessibleName(dots->toolTip());
     dots->setFocusPolicy(Qt::TabFocus);
     makeMenu(*dots);
     row->addWidget(line_);
@@ -262,7 +261,8 @@ void SchemeCard::showSpec() {
                          "click chooses the "
                          "colour")
                           .arg(index_ + 1));
-    line_->setAccessibleName(line_->toolTip());
+    line_->setAccessibleName(tr("Switch %1 on or off").arg(label));
+    dots_->setAccessibleName(tr("Actions of %1").arg(label));
     if (!s.isEnabled) showResult(nullptr, false, {});
     showCaution();
     showRefusal();

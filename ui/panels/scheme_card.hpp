@@ -90,6 +90,7 @@ private:
     QVBoxLayout* layout_;
     QHBoxLayout *first_, *second_;
     LineSample* line_;
+    QToolButton* dots_;
     ScrubLabel* step_;
     QLabel *name_, *parts_, *refusal_, *caution_, *events_, *failure_, *advice_;
     QPushButton* remedy_;

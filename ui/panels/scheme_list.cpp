@@ -39,6 +39,7 @@ SchemeList::SchemeList(Workspace& workspace, RunControl& run, const Theme& theme
     layout->addLayout(header);
 
     scroll_ = new ColumnArea;
+    scroll_->setAccessibleName(tr("Schemes"));
     auto* inside = new QWidget;
     inside->setProperty("ground", "window");
     cardsLayout_ = new QVBoxLayout(inside);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/shell/banners.hpp"
 
+#include <QAccessibleWidget>
 #include <QFrame>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -13,6 +14,17 @@
 namespace extremal {
 namespace {
 
+/// A banner that was not there before: screen readers say it when it is shown.
+class AlertFace : public QAccessibleWidget {
+public:
+    explicit AlertFace(QWidget* banner) : QAccessibleWidget(banner, QAccessible::AlertMessage) {}
+};
+constexpr const char* isNew = "isNew";
+QAccessibleInterface* faceOf(const QString&, QObject* object) {
+    auto* const widget = qobject_cast<QFrame*>(object);
+    return widget && widget->property(isNew).toBool() ? new AlertFace(widget) : nullptr;
+}
+
 /// In the style sheet.
 const char* nameOf(Notice::Kind kind) {
     return kind == Notice::Kind::error ? "error" : kind == Notice::Kind::warning ? "warning" : "information";
@@ -24,6 +36,7 @@ Banners::Banners(Notices& notices, QWidget* parent)
     : QWidget(parent), notices_(notices), layout_(new QVBoxLayout(this)) {
     layout_->setContentsMargins(0, 0, 0, 0);
     layout_->setSpacing(6);
+    QAccessible::installFactory(faceOf);
     connect(&notices_, &Notices::changed, this, &Banners::rebuild);
     rebuild();
 }
@@ -33,6 +46,7 @@ void Banners::rebuild() {
         if (item->widget()) item->widget()->deleteLater();
         delete item;
     }
+    QStringList said;
     for (const Notice& notice : notices_.all()) {
         auto* banner = new QFrame(this);
         banner->setProperty("banner", nameOf(notice.kind));
@@ -41,6 +55,9 @@ void Banners::rebuild() {
         auto* text = makeLinkLabel("", banner);
         const QString words =
             notice.hint.isEmpty() ? notice.text : notice.text + QStringLiteral("  ·  ") + notice.hint;
+        said << words;
+        banner->setAccessibleName(words);
+        banner->setProperty(isNew, !said_.contains(words));
         text->setText(words.toHtmlEscaped() + QStringLiteral("  ") + handbookLink(notice.place));
         setHelp(*banner, notice.place);
         row->addWidget(text, 1);
@@ -59,6 +76,7 @@ void Banners::rebuild() {
         row->addWidget(close);
         layout_->addWidget(banner);
     }
+    said_ = said;
     setVisible(!notices_.all().empty());
 }
 

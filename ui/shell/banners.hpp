@@ -2,6 +2,7 @@
 /// The banners above the content: notices with a text, a hint, choices, and a way to dismiss them.
 #pragma once
 
+#include <QStringList>
 #include <QWidget>
 
 class QVBoxLayout;
@@ -20,6 +21,7 @@ private:
 
     Notices& notices_;
     QVBoxLayout* layout_;
+    QStringList said_;  ///< by the banners that are shown
 };
 
 }  // namespace extremal

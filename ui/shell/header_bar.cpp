@@ -167,6 +167,7 @@ void HeaderBar::setSceneInSight(bool isInSight) {
 void HeaderBar::showWanted() {
     const QSignalBlocker blocker(wanted_);
     wanted_->setValue(static_cast<int>(std::lround(std::log10(error_.error()))));
+    wanted_->setAccessibleDescription(tr("%1; %2").arg(shortNumber(error_.error()), wanted_->toolTip()));
     showChoice();
 }
 

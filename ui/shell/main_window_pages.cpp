@@ -156,6 +156,7 @@ QWidget* MainWindow::makeWorkPage(BackgroundSweep& sweep) {
 
 void MainWindow::makeSceneColumn() {
     left_ = new SceneArea;
+    left_->setAccessibleName(tr("Scene"));
     left_->setWidgetResizable(true);
     left_->setFrameShape(QFrame::NoFrame);
     left_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

@@ -34,6 +34,7 @@ Timeline::Timeline(Playback& playback, QWidget* parent) : QWidget(parent), playb
     slider_->setMinimumWidth(48);  // the label gives way first
     speed_ = new ComboBox(this);
     speed_->setAccessibleName(tr("Speed"));
+    speed_->setAccessibleDescription(tr("Speed"));  // the name of a box is read as its text
     speed_->setObjectName("speed");
     for (const double s : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0}) speed_->addItem(QStringLiteral("%1×").arg(s), s);
     speed_->setCurrentIndex(3);
@@ -72,7 +73,9 @@ void Timeline::showTime() {
         QStringLiteral("t = %1 / %2").arg(playback_.time(), 0, 'f', decimals).arg(playback_.end(), 0, 'g', 6);
     if (playback_.computedEnd() < playback_.end() - 1e-9 * std::abs(length))
         text += tr(", computed to %1").arg(playback_.computedEnd(), 0, 'g', 4);
-    label_->setText(unit_.isEmpty() ? text : text + ' ' + unit_);
+    if (!unit_.isEmpty()) text += ' ' + unit_;
+    label_->setText(text);
+    slider_->setAccessibleDescription(text);
 }
 
 }  // namespace extremal

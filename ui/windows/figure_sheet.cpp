@@ -89,6 +89,7 @@ FigureSheet::FigureSheet(QWidget* parent) : QWidget(parent, Qt::Window) {
 QWidget* FigureSheet::makeChoices() {
     auto* card = new Card(tr("Figure"), this);
     auto* scroll = new QScrollArea(card);
+    scroll->setAccessibleName(tr("Options of the figure"));
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

@@ -89,6 +89,7 @@ FitWindow::FitWindow(Workspace& workspace, Notices& notices, const Theme& theme,
     auto* splitter = new QSplitter;
     splitter->setChildrenCollapsible(false);
     auto* scroll = new QScrollArea;
+    scroll->setAccessibleName(tr("Fit"));
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
     auto* inside = new QWidget;

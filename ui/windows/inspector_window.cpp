@@ -42,6 +42,7 @@ InspectorWindow::InspectorWindow(Workspace& workspace, RunControl& run, Playback
     auto* splitter = new QSplitter;
     splitter->setChildrenCollapsible(false);
     auto* scroll = new QScrollArea;
+    scroll->setAccessibleName(tr("Step"));
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
     auto* inside = new QWidget;

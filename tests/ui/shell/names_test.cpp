@@ -13,6 +13,8 @@
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/base/notices.hpp"
+#include "ui/panels/scheme_card.hpp"
 #include "ui/panels/scheme_list.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
@@ -39,7 +41,8 @@ bool isControl(const QWidget& w) {
     return w.inherits("QAbstractButton") || w.inherits("QLineEdit") || w.inherits("QComboBox") ||
            w.inherits("QAbstractSpinBox") || w.inherits("QAbstractSlider") ||
            w.inherits("QAbstractItemView") || w.inherits("QTextEdit") || w.inherits("QPlainTextEdit") ||
-           qobject_cast<const PlotWidget*>(&w) || qobject_cast<const StageWidget*>(&w);
+           qobject_cast<const PlotWidget*>(&w) || qobject_cast<const StageWidget*>(&w) ||
+           (w.focusPolicy() & Qt::TabFocus) != 0;
 }
 
 QStringList namelessIn(const QWidget& window) {
@@ -47,7 +50,8 @@ QStringList namelessIn(const QWidget& window) {
     for (const QWidget* w : window.findChildren<QWidget*>()) {
         if (!w->isVisibleTo(&window) || !isControl(*w)) continue;
         QAccessibleInterface* const face = QAccessible::queryAccessibleInterface(const_cast<QWidget*>(w));
-        if (!face || face->text(QAccessible::Name).trimmed().isEmpty()) found << placeOf(*w);
+        const QString name = face ? face->text(QAccessible::Name).trimmed() : QString();
+        if (name.isEmpty() || name.contains('<')) found << placeOf(*w) + ' ' + name;
     }
     return found;
 }
@@ -81,6 +85,42 @@ private slots:
             const QStringList nameless = namelessIn(window);
             QVERIFY2(nameless.isEmpty(), qPrintable(page + (": " + nameless.join("\n"))));
         }
+    }
+    /// What is only said by its place or its colour.
+    void positionsAndBannersAreSaid() {
+        MainWindow window(Theme::light(), false);
+        window.resize(1400, 900);
+        window.show();
+        QVERIFY(window.open("preset:pendulum"));
+        QVERIFY(waitForResults(window));
+        const auto said = [](QWidget* widget, QAccessible::Text what) {
+            return QAccessible::queryAccessibleInterface(widget)->text(what);
+        };
+        for (QSlider* slider : window.findChildren<QSlider*>()) {
+            const QString name = said(slider, QAccessible::Name);
+            if (name == "Time") QVERIFY(said(slider, QAccessible::Description).contains("60 s"));
+            if (name == "Wanted error") QVERIFY(said(slider, QAccessible::Description).startsWith("1e-6"));
+        }
+        QStringList switches;
+        for (const SchemeCard* card : window.findChildren<SchemeCard*>())
+            for (QAbstractButton* button : card->findChildren<QAbstractButton*>())
+                if (const QString name = said(button, QAccessible::Name); name.startsWith("Switch"))
+                    switches << name;
+        QCOMPARE(switches.size(), 4);
+        QVERIFY(switches.contains("Switch Galerkin Gauss 4 on or off"));
+
+        window.notices().post({Notice::Kind::error, "one", "The first one", "try this", {}});
+        const auto banners = [&] {
+            QList<QAccessible::Role> roles;
+            for (QFrame* frame : window.findChildren<QFrame*>())
+                if (frame->property("banner").isValid() && frame->isVisible())
+                    roles << QAccessible::queryAccessibleInterface(frame)->role();
+            return roles;
+        };
+        QCOMPARE(banners(), QList<QAccessible::Role>{QAccessible::AlertMessage});
+        window.notices().post({Notice::Kind::warning, "two", "The second one", {}, {}});
+        QTRY_COMPARE(banners().size(), 2);
+        QCOMPARE(banners().count(QAccessible::AlertMessage), 1);  // what was said is not said again
     }
     void windowsBesideHaveNames() {
         MainWindow window(Theme::light(), false);
