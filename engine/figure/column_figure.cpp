@@ -2,6 +2,7 @@
 #include "engine/figure/column_figure.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace extremal {
 namespace {
@@ -25,7 +26,12 @@ std::string titleOfColumn(const FigureContext& context, const std::string& colum
                     static_cast<char>(title[0] >= 'a' && title[0] <= 'z' ? title[0] - 'a' + 'A' : title[0]);
                 return title;
             }
-    const std::string symbol = columnInfo(context, column).symbol;  // of an observable
+    constexpr std::string_view ofError = "error.";
+    if (context.system && column.starts_with(ofError))
+        for (const Coordinate& c : context.system->coordinates)
+            if (column.substr(ofError.size()) == c.name && !c.title.empty()) return "Error: " + c.title;
+    std::string symbol = columnInfo(context, column).symbol;  // of an observable
+    std::replace(symbol.begin(), symbol.end(), '_', ' ');     // titles of cards have no lowered parts
     return symbol.empty() ? "Trajectory" : symbol;
 }
 

@@ -42,6 +42,17 @@ private slots:
         QCOMPARE(titles("step", pendulum), "t  [s] | h  [s]");
         QCOMPARE(titles("work-precision", pendulum), "CPU time  [s] | max error in θ  [rad]");
     }
+    /// Titles of cards are plain texts: no marks of lowered parts in them.
+    void titlesOfColumnsAreWords() {
+        const Comparison comparison = handmade::comparison();
+        const System pendulum = handmade::pendulum();
+        const auto title = [&](const char* y) {
+            return makeFigure(comparison, {"trajectory", "", y}, &pendulum).title;
+        };
+        QCOMPARE(title("q.theta"), "Angle");
+        QCOMPARE(title("error.theta"), "Error: angle");
+        QCOMPARE(title("one_two"), "one two");
+    }
     void zerosAndInfinitiesAreGapsAndCounted() {
         const Figure f = energyFigure(handmade::comparison());
         QCOMPARE(f.series().size(), std::size_t{5});
