@@ -207,6 +207,15 @@ void SchemeList::editSelected() {
     if (SchemeCard* there = card(workspace_.selectedScheme())) there->setEditing(!there->isEditing());
 }
 
+bool SchemeList::closeEditors() {
+    bool wasOpen = false;
+    for (SchemeCard* each : cards_) {
+        wasOpen = wasOpen || each->isEditing();
+        each->setEditing(false);
+    }
+    return wasOpen;
+}
+
 void SchemeList::renameSelected() {
     if (SchemeCard* there = card(workspace_.selectedScheme())) there->editName();
 }

@@ -35,6 +35,7 @@ public:
     void add(const Value& scheme);
     /// Gives a row the focus, and so selects it.
     void focusRow(int index);
+    bool closeEditors();  ///< false if none was open
     void editSelected();
     void renameSelected();
     /// Selects a scheme and opens its step, or its tolerance, for typing.

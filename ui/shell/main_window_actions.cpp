@@ -380,7 +380,7 @@ void MainWindow::addRunActions() {
         if (needs_->stop() || cellCosts_->stop() || orbits_->stop() || (fit_ && fit_->stop())) return;
         if (studies_->isVisible() && studies_->stop()) return;
         if (compare_->restore()) return;
-        if (!run_->isRunning()) workspace_->selectScheme(-1);
+        if (!run_->isRunning() && !schemes_->closeEditors()) workspace_->selectScheme(-1);
         run_->stop();
     });
 }

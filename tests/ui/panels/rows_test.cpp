@@ -175,9 +175,14 @@ private slots:
         window.workspace().undo();
         QCOMPARE(window.workspace().scene().initial.q[1].value, 1.0);
     }
-    void escapeTakesTheSelectionAway() {
+    void escapeClosesTheEditorThenTakesTheSelectionAway() {
         Window window;
         window.workspace().selectScheme(1);
+        window.actions().find("editScheme")->trigger();
+        QVERIFY(window.card(1)->isEditing());
+        window.actions().find("stop")->trigger();
+        QVERIFY(!window.card(1)->isEditing());
+        QCOMPARE(window.workspace().selectedScheme(), 1);
         window.actions().find("stop")->trigger();
         QCOMPARE(window.workspace().selectedScheme(), -1);
     }
