@@ -400,8 +400,8 @@ void findGaps(Found& found, const CatalogueScheme& scheme) {
 void findModesty(Found& found, const CatalogueScheme& scheme, const Subject& on) {
     const Claims& c = scheme.claims();
     // Splittings for coordinates may gain an order on wave functions: on smooth potentials.
-    const bool isBorrowed = on.system.parts.find<Wave>() && scheme.scheme.baseline &&
-                            scheme.scheme.fits(systemNamed("harmonic-oscillator"));
+    const bool isBorrowed =
+        on.system.parts.find<Wave>() && scheme.scheme.fits(systemNamed("harmonic-oscillator"));
     if (found.orders > 0 && found.nearestOrder > half && !isBorrowed)
         found.broken.push_back("the order is better than claimed everywhere");
     if (!c.isOneStep) return;

@@ -147,6 +147,7 @@ void OwnWindow::makeForm() {
     measured_->setObjectName("ownMeasured");
     problem_ = makeLinkLabel("problem");
     problem_->setObjectName("ownProblem");
+    problem_->hide();
     for (QLabel* label : {facts_, measured_, problem_}) {
         label->setWordWrap(true);
         label->setTextFormat(Qt::RichText);

@@ -48,16 +48,17 @@ void Banners::rebuild() {
     }
     QStringList said;
     for (const Notice& notice : notices_.all()) {
-        auto* banner = new QFrame(this);
+        const QString words =
+            notice.hint.isEmpty() ? notice.text : notice.text + QStringLiteral("  ·  ") + notice.hint;
+        said << words;
+        auto* banner = new QFrame;
+        banner->setProperty(isNew, !said_.contains(words));  // before it has a face
+        banner->setParent(this);
+        banner->setAccessibleName(words);
         banner->setProperty("banner", nameOf(notice.kind));
         auto* row = new QHBoxLayout(banner);
         row->setContentsMargins(12, 6, 8, 6);
         auto* text = makeLinkLabel("", banner);
-        const QString words =
-            notice.hint.isEmpty() ? notice.text : notice.text + QStringLiteral("  ·  ") + notice.hint;
-        said << words;
-        banner->setAccessibleName(words);
-        banner->setProperty(isNew, !said_.contains(words));
         text->setText(words.toHtmlEscaped() + QStringLiteral("  ") + handbookLink(notice.place));
         setHelp(*banner, notice.place);
         row->addWidget(text, 1);
