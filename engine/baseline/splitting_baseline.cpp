@@ -14,6 +14,7 @@
 #include "engine/step/wave_splitting.hpp"
 
 namespace extremal {
+
 BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage> stages) {
     BaselineEntry e;
     e.item = std::move(item);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ui/compare/card_handle.hpp"
+
 namespace extremal {
 namespace {
 
@@ -14,6 +16,7 @@ constexpr int gap = 10, stageHeight = 225, stageHeightAlone = 240, leastPlot = 1
 constexpr int leastSquare = 210, largestSquare = 360;
 constexpr int besideOthers = 60;    // what a square may take of the width of others
 constexpr int leastJoined = 230;    // the width of a card that joins a full row
+constexpr int leastByHand = 110;    // of a height or a width
 constexpr double stageShare = 1.4;  // of the width, where a plot has 1
 
 }  // namespace
@@ -74,7 +77,7 @@ std::vector<CardLayout::Row> CardLayout::rows(int width) const {
 void CardLayout::fillSight(std::vector<Row>& rows) const {
     constexpr int ofStage = 3, ofPlots = 1;
     const auto shareOf = [](const Row& row) {
-        return row.hasStage ? ofStage : row.squares > 0 ? 0 : ofPlots;
+        return row.isOwn || (row.squares > 0 && !row.hasStage) ? 0 : row.hasStage ? ofStage : ofPlots;
     };
     int used = -gap, shares = 0;
     std::size_t count = 0;
@@ -112,6 +115,12 @@ std::vector<CardLayout::Row> CardLayout::rows(int width, int plotHeight) const {
         }
         if (isSquare) row.height = std::max(row.height, square);
     }
+    for (Row& row : all) {
+        int height = 0;
+        for (std::size_t i = row.from; i < row.to; ++i) height = std::max(height, ownOf(i).height);
+        row.isOwn = height > 0;
+        if (row.isOwn) row.height = height;
+    }
     return all;
 }
 
@@ -125,12 +134,15 @@ int CardLayout::highest(const Row& row, int width) const {
 std::vector<int> CardLayout::widths(const Row& row, int width, int height) const {
     const auto count = static_cast<int>(row.to - row.from);
     const int room = width - gap * (count - 1);
-    const bool isMixed = row.squares > 0 && row.squares < count;
+    bool isOwn = false;
+    for (std::size_t i = row.from; i < row.to; ++i) isOwn = isOwn || ownOf(i).share > 0;
+    const bool isMixed = !isOwn && row.squares > 0 && row.squares < count;
     const int side = isMixed ? std::min(height, highest(row, width)) : 0;
     double shares = 0;
     const auto shareOf = [&](std::size_t i) {
         if (isMixed && cards_[i].shape == CardShape::square) return 0.0;
-        return cards_[i].shape == CardShape::stage ? stageShare : 1.0;
+        if (isOwn && ownOf(i).share > 0) return ownOf(i).share;
+        return (cards_[i].shape == CardShape::stage ? stageShare : 1.0) * (isOwn ? width / count : 1);
     };
     for (std::size_t i = row.from; i < row.to; ++i) shares += shareOf(i);
     const double free = room - side * (isMixed ? row.squares : 0);
@@ -161,7 +173,7 @@ void CardLayout::setGeometry(const QRect& rect) {
     const bool onlySquares =
         std::all_of(all.begin(), all.end(), [](const Row& row) { return row.squares > 0; });
     const auto stretchOf = [&](const Row& row) {
-        return row.squares > 0 && !onlySquares ? 0 : row.hasStage ? 6 : 5;
+        return row.isOwn || (row.squares > 0 && !onlySquares) ? 0 : row.hasStage ? 6 : 5;
     };
     for (const Row& row : all) {
         used += row.height + gap;
@@ -174,7 +186,7 @@ void CardLayout::setGeometry(const QRect& rect) {
         const int share = stretch > 0 ? spare * stretched / stretch : 0;
         int height = row.height + share - given;
         given = share;
-        if (row.squares > 0 && all.size() > 1)
+        if (row.squares > 0 && all.size() > 1 && !row.isOwn)
             height = std::min(height, std::max(row.height, highest(row, inside.width())));
         const std::vector<int> across = widths(row, inside.width(), height);
         int x = inside.left();
@@ -185,6 +197,105 @@ void CardLayout::setGeometry(const QRect& rect) {
         }
         y += height + gap;
     }
+    placeHandles();
+}
+
+CardLayout::Own CardLayout::ownOf(std::size_t card) const {
+    const auto own = own_.find(cards_[card].item->widget());
+    return own == own_.end() ? Own{} : own->second;
+}
+
+CardLayout::Own& CardLayout::keptOf(std::size_t card) {
+    QWidget* const widget = cards_[card].item->widget();
+    if (!own_.contains(widget))
+        connect(widget, &QObject::destroyed, this, [this, widget] { own_.erase(widget); });
+    return own_[widget];
+}
+
+std::pair<std::size_t, std::size_t> CardLayout::rowOf(std::size_t card) const {
+    const auto top = [&](std::size_t i) { return cards_[i].item->geometry().top(); };
+    std::size_t from = card, to = card + 1;
+    while (from > 0 && top(from - 1) == top(card)) --from;
+    while (to < cards_.size() && top(to) == top(card)) ++to;
+    return {from, to};
+}
+
+void CardLayout::setRowHeight(std::size_t card, int height) {
+    const auto [from, to] = rowOf(card);
+    for (std::size_t i = from; i < to; ++i) keptOf(i).height = std::max(leastByHand, height);
+    invalidate();
+}
+
+/// What a card gains its neighbour loses; the others of the row keep their widths.
+void CardLayout::setRightEdge(std::size_t card, int x) {
+    const auto [from, to] = rowOf(card);
+    for (std::size_t i = from; i < to; ++i) keptOf(i).share = cards_[i].item->geometry().width();
+    const QRect own = cards_[card].item->geometry(), next = cards_[card + 1].item->geometry();
+    const int both = own.width() + next.width();
+    const int width =
+        std::clamp(x - own.left(), std::min(leastByHand, both / 2), std::max(both - leastByHand, both / 2));
+    keptOf(card).share = width;
+    keptOf(card + 1).share = both - width;
+    invalidate();
+}
+
+void CardLayout::grow(const QWidget* card, int by) {
+    for (std::size_t i = 0; i < cards_.size(); ++i)
+        if (cards_[i].item->widget() == card)
+            return setRowHeight(i, cards_[i].item->geometry().height() + by);
+}
+
+void CardLayout::forgetRow(std::size_t card) {
+    const auto [from, to] = rowOf(card);
+    for (std::size_t i = from; i < to; ++i) own_.erase(cards_[i].item->widget());
+    invalidate();
+}
+
+void CardLayout::forgetSizes() {
+    own_.clear();
+    invalidate();
+}
+
+/// In the gaps below rows, and between cards.
+void CardLayout::placeHandles() {
+    edges_.clear();
+    std::vector<QRect> places;
+    for (std::size_t i = 0; i < cards_.size() && cards_.size() > 1; ++i) {
+        const QRect card = cards_[i].item->geometry();
+        const auto [from, to] = rowOf(i);
+        if (i + 1 < to) {
+            edges_.push_back({i, false});
+            places.emplace_back(card.right() + 1, card.top(), gap, card.height());
+        }
+        if (i == from) {
+            edges_.push_back({i, true});
+            places.emplace_back(card.left(), card.bottom() + 1,
+                                cards_[to - 1].item->geometry().right() - card.left() + 1, gap);
+        }
+    }
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        CardHandle* const one = handle(k);
+        one->setUpright(edges_[k].isBelow);
+        one->setGeometry(places[k]);
+        one->show();
+    }
+    for (std::size_t k = places.size(); k < handles_.size(); ++k) handles_[k]->hide();
+}
+
+CardHandle* CardLayout::handle(std::size_t number) {
+    while (handles_.size() <= number)
+        handles_.push_back(new CardHandle(
+            parentWidget(),
+            [this, k = handles_.size()](QPoint at) {
+                const Edge edge = edges_[k];
+                const QRect card = cards_[edge.card].item->geometry();
+                if (edge.isBelow)
+                    setRowHeight(edge.card, at.y() - gap / 2 - card.top());
+                else
+                    setRightEdge(edge.card, at.x() - gap / 2);
+            },
+            [this, k = handles_.size()] { forgetRow(edges_[k].card); }));
+    return handles_[number];
 }
 
 }  // namespace extremal

@@ -4,15 +4,21 @@
 ///
 /// With n columns a row takes n cards; one card that would be left over joins the row before it if that has a
 /// square, else it has a row to itself. What height the window has beyond the least that all rows need goes
-/// to the rows without squares, or where there are none to the squares. Where the rows have to scroll, those in sight at first fill it, so that none
-/// is cut, and the stage has the largest share.
+/// to the rows without squares, or where there are none to the squares. Where the rows have to scroll, those
+/// in sight at first fill it, so that none is cut, and the stage has the largest share.
+///
+/// The gaps between cards are handles: rows and cards have the sizes that a hand gave them, until these are
+/// given back.
 #pragma once
 
 #include <QLayout>
 
+#include <map>
 #include <vector>
 
 namespace extremal {
+
+class CardHandle;
 
 enum class CardShape { stage, plot, square };
 
@@ -28,6 +34,9 @@ public:
     /// The height that can be seen at once, where rows that have to scroll anyway are higher; and the width
     /// without a scroll bar, 0: that of the layout.
     void setSight(int height, int width = 0);
+    /// Makes the row of a card higher by so many pixels.
+    void grow(const QWidget* card, int by);
+    void forgetSizes();
 
     void addItem(QLayoutItem* item) override;
     int count() const override { return static_cast<int>(cards_.size()); }
@@ -50,6 +59,7 @@ private:
         int height;  ///< at least
         bool hasStage = false;
         int squares = 0;
+        bool isOwn = false;  ///< its height was given by hand
     };
     std::vector<Row> rows(int width) const;
     std::vector<Row> rows(int width, int plotHeight) const;
@@ -57,7 +67,28 @@ private:
     int highest(const Row& row, int width) const;
     std::vector<int> widths(const Row& row, int width, int height) const;
 
+    /// What was given by hand; 0: nothing.
+    struct Own {
+        int height = 0;
+        double share = 0;  ///< of the width of its row
+    };
+    Own ownOf(std::size_t card) const;
+    Own& keptOf(std::size_t card);
+    std::pair<std::size_t, std::size_t> rowOf(std::size_t card) const;  ///< from, to; as it is placed
+    void setRowHeight(std::size_t card, int height);
+    void setRightEdge(std::size_t card, int x);
+    void forgetRow(std::size_t card);
+    void placeHandles();
+    CardHandle* handle(std::size_t number);
+
     std::vector<Placed> cards_;
+    std::map<const QWidget*, Own> own_;
+    struct Edge {
+        std::size_t card;
+        bool isBelow;
+    };
+    std::vector<Edge> edges_;  ///< one for each handle that is shown
+    std::vector<CardHandle*> handles_;
     int columns_ = 2, sight_ = 0, sightWidth_ = 0;
 };
 

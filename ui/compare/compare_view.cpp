@@ -74,6 +74,7 @@ CompareView::~CompareView() = default;
 void CompareView::connectState() {
     connect(&workspace_, &Workspace::opened, this, [this] {  // another scene has no zoom yet
         arranged_.clear();
+        cardLayout_->forgetSizes();
         for (auto& s : slots_) discard(std::move(s));
         slots_.clear();
         maximized_ = nullptr;
@@ -322,10 +323,7 @@ void CompareView::arrange() {
                                         [&](const auto& s) { return s->number == presentedSlot_; });
         for (const auto& s : slots_) {
             if (isPresented_ && (hasPresented ? s->number != presentedSlot_ : s != slots_.front())) continue;
-            cards.emplace_back(s->card,
-                               s->plot->figure().aspect == Aspect::equal && !isEmpty(s->plot->figure())
-                                   ? CardShape::square
-                                   : CardShape::plot);
+            cards.emplace_back(s->card, shapeOf(*s));
         }
     }
     if (columns() == columns_ && cards == arranged_) return;

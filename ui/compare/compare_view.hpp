@@ -70,6 +70,9 @@ public:
     bool hasStage() const { return hasStage_; }
     std::vector<PlotWidget*> plots() const;
     void setPageLayout(PageLayout layout);
+    /// Makes the row that has the focus, else that of the stage, higher by so many pixels.
+    void growRow(int by);
+    void forgetSizes();  ///< of rows and cards, given by hand
     /// The stage and one plot alone: the one that was pointed at last, else the current one.
     void setPresented(bool isPresented);
     /// The plot so many places further has the focus, and is presented.
@@ -93,8 +96,8 @@ public:
 
 signals:
     void saveFailed(const QString& reason);
-    void caseLoaded(const QString& text);      ///< of a map, into the scene
-    void startRefused(const QString& reason);  ///< no motion starts at a place that was chosen
+    void caseLoaded(const QString& text);             ///< of a map, into the scene
+    void startRefused(const QString& reason);         ///< no motion starts at a place that was chosen
     void orbitAsked(const std::vector<Edit>& start);  ///< a periodic orbit near this start of the scene
     /// What was drawn cannot be in the scene; both empty: it is, or nothing is drawn.
     void sketchRefused(const QString& reason, const QString& remedy);
@@ -129,6 +132,7 @@ private:
     Figure inTimes(const Figure& whole) const;
     void showTimes(std::optional<PlotRange> range);
     void describeStage();  ///< to screen readers
+    CardShape shapeOf(const Slot& slot) const;
     void arrange();
     void refresh();  ///< new results
     FigureJob missing() const;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the hand does on the stage: bodies are dragged and the plots follow, and initial profiles are drawn.
+/// What the hand does on the page: bodies are dragged and the plots follow, initial profiles are drawn, and
+/// rows have the sizes that it gave them.
 #include <QAction>
+#include <QApplication>
 #include <QMenu>
+
+#include <algorithm>
 
 #include "engine/model/parts/written_form.hpp"
 #include "engine/scene/resolve.hpp"
@@ -92,6 +96,15 @@ void CompareView::drawMechanism(bool isEmpty) {
         sketch_->begin(isEmpty);
 }
 
+/// Cards stay where they are while a body is dragged, although a short run may be about square, or not.
+CardShape CompareView::shapeOf(const Slot& slot) const {
+    const auto before = std::find_if(arranged_.begin(), arranged_.end(),
+                                     [&](const auto& card) { return card.first == slot.card; });
+    if (isPreviewing() && before != arranged_.end()) return before->second;
+    const Figure& figure = slot.plot->figure();
+    return figure.aspect == Aspect::equal && !isEmpty(figure) ? CardShape::square : CardShape::plot;
+}
+
 bool CompareView::isPreviewing() const { return bodies_->preview() != nullptr; }
 
 std::shared_ptr<const Comparison> CompareView::shownResults() const {
@@ -107,5 +120,14 @@ void CompareView::tellOfHand() {
             ? tr("Drag with Ctrl to draw the initial profile.")
             : tr("What this model draws is not dragged. Its start is set in the form on the left."));
 }
+
+void CompareView::growRow(int by) {
+    const QWidget* const focus = QApplication::focusWidget();
+    const auto holdsFocus = [&](const auto& s) { return s->card->isAncestorOf(focus); };
+    const auto found = std::find_if(slots_.begin(), slots_.end(), holdsFocus);
+    cardLayout_->grow(found == slots_.end() ? stageCard_ : (*found)->card, by);
+}
+
+void CompareView::forgetSizes() { cardLayout_->forgetSizes(); }
 
 }  // namespace extremal

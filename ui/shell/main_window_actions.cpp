@@ -293,6 +293,7 @@ void MainWindow::addViewActions() {
         Theme theme = theme_.isDark ? Theme::dark() : Theme::light();
         setTheme(theme);
         actions_->find("layout0")->trigger();
+        compare_->forgetSizes();
         for (const char* panel : {"scenePanel", "schemesPanel"})
             if (QAction* action = actions_->find(panel); !action->isChecked()) action->trigger();
         showNormal();
@@ -316,6 +317,14 @@ void MainWindow::addLayoutActions(const QString& menu) {
         action->setCheckable(true);
         group->addAction(action);
     }
+    constexpr int more = 40;  // pixels
+    actions_->add("taller", menu, tr("Row of the plot higher"),
+                  {QKeySequence(Qt::ALT | Qt::Key_Plus), QKeySequence(Qt::ALT | Qt::Key_Equal)},
+                  [this] { compare_->growRow(more); });
+    actions_->add("lower", menu, tr("Row of the plot lower"), {QKeySequence(Qt::ALT | Qt::Key_Minus)},
+                  [this] { compare_->growRow(-more); });
+    actions_->add("sizes", menu, tr("Plots in their own sizes"), {QKeySequence(Qt::ALT | Qt::Key_0)},
+                  [this] { compare_->forgetSizes(); });
     const int last = isRemembered_ ? QSettings().value("window/layout").toInt() : 0;
     group->actions().at(std::clamp(last, 0, static_cast<int>(names.size()) - 1))->trigger();
     const auto addPanel = [&](const char* id, const QString& text, const QKeySequence& key, QWidget* panel) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Rows of plots that have to scroll anyway are higher than those that fit.
+/// Rows that scroll and rows that fit, squares, and sizes that a hand gave.
 #include "ui/compare/card_layout.hpp"
 
+#include <QMouseEvent>
 #include <QTest>
 
 #include <algorithm>
 
 #include "tests/tools/test.hpp"
+#include "ui/compare/card_handle.hpp"
 
 namespace extremal::card_layout_test {
 
@@ -79,6 +81,53 @@ private slots:
         layout->setGeometry({0, 0, 800, 1400});
         const QRect card = layout->itemAt(5)->geometry();
         QVERIFY(card.height() * 4 <= card.width() * 5 && card.height() > 210);
+    }
+    void rowsAndCardsHaveTheSizesOfAHand() {
+        QWidget page;
+        auto* layout = new CardLayout(&page);
+        layout->setContentsMargins(0, 0, 0, 0);
+        layout->setColumns(2);
+        for (const CardShape shape : {CardShape::stage, CardShape::plot, CardShape::plot, CardShape::square})
+            layout->addCard(new QWidget(&page), shape);
+        const auto places = [&] {
+            layout->setGeometry({0, 0, 900, std::max(700, layout->heightForWidth(900))});
+            QList<QRect> all;
+            for (int i = 0; i < layout->count(); ++i) all << layout->itemAt(i)->geometry();
+            return all;
+        };
+        const QList<QRect> before = places();
+        const auto handle = [&](Qt::CursorShape shape) {  // the uppermost
+            CardHandle* found = nullptr;
+            for (CardHandle* each : page.findChildren<CardHandle*>())
+                if (each->cursor().shape() == shape && (!found || each->y() < found->y())) found = each;
+            return found;
+        };
+        const auto drag = [](CardHandle* at, QPoint by) {
+            const QPoint middle = at->rect().center();
+            QTest::mousePress(at, Qt::LeftButton, {}, middle);
+            QMouseEvent move(QEvent::MouseMove, middle + by, at->mapToGlobal(middle + by), Qt::NoButton,
+                             Qt::LeftButton, {});
+            QCoreApplication::sendEvent(at, &move);
+            QTest::mouseRelease(at, Qt::LeftButton, {}, middle);
+        };
+        drag(handle(Qt::SizeVerCursor), {0, 60});
+        const QList<QRect> higher = places();
+        QVERIFY(std::abs(higher[0].height() - before[0].height() - 60) <= 1);
+        QCOMPARE(higher[1].height(), higher[0].height());
+        QVERIFY(higher[2].top() > higher[0].bottom());
+        drag(handle(Qt::SizeHorCursor), {-100, 0});
+        const QList<QRect> narrower = places();
+        QVERIFY(std::abs(narrower[0].width() - before[0].width() + 100) <= 1);
+        QCOMPARE(narrower[1].right(), before[1].right());
+        QVERIFY(narrower[1].left() > narrower[0].right());
+        drag(handle(Qt::SizeHorCursor), {-5000, 0});
+        QVERIFY(places()[0].width() >= 100);
+        layout->grow(layout->itemAt(2)->widget(), 40);
+        QCOMPARE(places()[2].height(), narrower[2].height() + 40);
+        QTest::mouseDClick(handle(Qt::SizeVerCursor), Qt::LeftButton);
+        QCOMPARE(places()[0].width(), before[0].width());
+        layout->forgetSizes();
+        QCOMPARE(places(), before);
     }
     void rowsThatScrollAreHigher() {
         QWidget page;

@@ -89,6 +89,37 @@ private slots:
         window.workspace().undo();  // one step
         QVERIFY(window.workspace().document() == before);
     }
+    /// A short run may be about square where the whole one is not.
+    void cardsStayWhereTheyAreMeanwhile() {
+        Window window("double-pendulum");
+        const auto plots = [&] { return window.compareView().plots(); };
+        const auto places = [&] {
+            QList<QRect> all;
+            for (PlotWidget* plot : plots())
+                all << QRect(plot->mapTo(&window.compareView(), QPoint()), plot->size());
+            return all;
+        };
+        const auto aspects = [&] {
+            QList<Aspect> all;
+            for (const PlotWidget* plot : plots()) all << plot->figure().aspect;
+            return all;
+        };
+        const QList<QRect> before = places();
+        const QList<Aspect> whole = aspects();
+        const QPoint from = window.onStage(window.body(1));
+        QTest::mousePress(&window.stage(), Qt::LeftButton, {}, from);
+        int others = 0;
+        for (int i = 1; i <= 12; ++i) {  // around where it is
+            const long long made = window.compareView().figuresMade();
+            window.move(from + (60 * QPointF(std::cos(i) - 1, std::sin(i))).toPoint());
+            QTRY_VERIFY(window.isPreviewing() && window.compareView().figuresMade() > made);
+            QTest::qWait(50);  // for the places
+            others += aspects() != whole;
+            QCOMPARE(places(), before);
+        }
+        window.let(from);
+        QVERIFY(others > 0);
+    }
     void aClickChangesNothing() {
         Window window("kepler");
         const Value before = window.workspace().document();
