@@ -24,6 +24,7 @@ constexpr double stageShare = 1.4;  // of the width, where a plot has 1
 void CardLayout::clear() {
     for (const Placed& card : cards_) delete card.item;
     cards_.clear();
+    edges_.clear();
 }
 
 void CardLayout::addCard(QWidget* card, CardShape shape) {
@@ -45,7 +46,9 @@ QLayoutItem* CardLayout::itemAt(int index) const {
 
 QLayoutItem* CardLayout::takeAt(int index) {
     QLayoutItem* item = itemAt(index);
-    if (item) cards_.erase(cards_.begin() + index);
+    if (!item) return nullptr;
+    cards_.erase(cards_.begin() + index);
+    edges_.clear();
     return item;
 }
 
@@ -287,6 +290,7 @@ CardHandle* CardLayout::handle(std::size_t number) {
         handles_.push_back(new CardHandle(
             parentWidget(),
             [this, k = handles_.size()](QPoint at) {
+                if (k >= edges_.size()) return;  // other cards since it was taken
                 const Edge edge = edges_[k];
                 const QRect card = cards_[edge.card].item->geometry();
                 if (edge.isBelow)
@@ -294,7 +298,9 @@ CardHandle* CardLayout::handle(std::size_t number) {
                 else
                     setRightEdge(edge.card, at.x() - gap / 2);
             },
-            [this, k = handles_.size()] { forgetRow(edges_[k].card); }));
+            [this, k = handles_.size()] {
+                if (k < edges_.size()) forgetRow(edges_[k].card);
+            }));
     return handles_[number];
 }
 

@@ -128,6 +128,14 @@ private slots:
         QCOMPARE(places()[0].width(), before[0].width());
         layout->forgetSizes();
         QCOMPARE(places(), before);
+        // Cards go away while a handle is in hand.
+        CardHandle* const held = handle(Qt::SizeHorCursor);
+        delete layout->itemAt(1)->widget();
+        drag(held, {-100, 0});
+        QCOMPARE(places().size(), 3);
+        layout->clear();
+        drag(held, {-100, 0});
+        QVERIFY(places().isEmpty());
     }
     void rowsThatScrollAreHigher() {
         QWidget page;
