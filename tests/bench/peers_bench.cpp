@@ -103,8 +103,8 @@ void turningBody(PeerTable& table, const char* title, const laws::KnownBody& kno
     }
     if (!isTop)
         // To round-off, and only as far as the accuracy needs: momenta and lengths are kept in any case.
-        for (const int degree : {3, 4, 6, 8})
-            for (const double tolerance : {0.0, 1e-5, 1e-8, 1e-11}) {
+        for (const int degree : {2, 3, 4, 5, 6, 8})
+            for (const double tolerance : {0.0, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-11}) {
                 Discretization quaternion = *namedScheme("quaternion-" + std::to_string(degree));
                 if (tolerance > 0) quaternion.solver = {"auto", {{"tolerance", tolerance}}, {}};
                 curves.push_back(measure("quaternion-" + std::to_string(degree) +
