@@ -94,7 +94,7 @@ std::optional<Properties> describeOn(const Discretization& d, const System& syst
     return p;
 }
 
-/// Why the free motion of a system is no space of curves; empty if it is.
+/// Why the free motions of a system cannot be the curves of a step; empty if they can.
 std::string unknownBecause(const System& system) {
     if (system.parts.find<Wave>())
         return system.hamiltonian()->isSplit()

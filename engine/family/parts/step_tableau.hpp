@@ -11,8 +11,8 @@ namespace extremal {
 
 struct Tableau;
 
-/// The step as a Runge-Kutta method. Throws InvalidScene, with the reason, where it is not one. Without it
-/// steps are no Runge-Kutta method with constant coefficients.
+/// The step as a Runge-Kutta method. Throws InvalidScene, with the reason, where it is not one. Without it a
+/// step is not a Runge-Kutta method with constant coefficients.
 struct StepTableau {
     static constexpr PartInfo part{"step-tableau", "a tableau", false};
     std::shared_ptr<const Tableau> (*of)(const Discretization&, double step) = nullptr;
