@@ -8,17 +8,17 @@
 namespace extremal {
 namespace {
 
-template <class Forces>
+template <class Elements>
 class DyadicSteps final : public Integrator {
 public:
-    DyadicSteps(Forces forces, const Levels& levels, double step)
-        : forces_(std::move(forces)),
+    DyadicSteps(Elements elements, const Levels& levels, double step)
+        : elements_(std::move(elements)),
           ticks_(2LL << levels.highest),
           byLevel_(static_cast<std::size_t>(levels.highest) + 1),
           h_(step),
-          clock_(static_cast<std::size_t>(forces_.nodes())),
+          clock_(static_cast<std::size_t>(elements_.nodes())),
           x_(2 * clock_.size()) {
-        for (int e = 0; e < forces_.elements(); ++e)
+        for (int e = 0; e < elements_.elements(); ++e)
             byLevel_[static_cast<std::size_t>(levels.level[static_cast<std::size_t>(e)])].push_back(e);
         for (std::size_t l = 0; l < byLevel_.size(); ++l)
             updates_ += static_cast<long long>(byLevel_[l].size()) << (byLevel_.size() - 1 - l);
@@ -35,7 +35,7 @@ public:
         std::copy(state.x.begin(), state.x.end(), x_.begin());
         double *u = x_.data(), *v = u + n;
         const bool isWhole = sweep([&](std::size_t a, double time) { u[a] += time * v[a]; },
-                                   [&](int e, double time) { forces_.kick(e, time, u, v); });
+                                   [&](int e, double time) { elements_.kick(e, time, u, v); });
         if (!isWhole) {
             report.outcome = Outcome::stopped;
             return report;
@@ -65,7 +65,7 @@ public:
     /// Of the values at nodes that are not fixed, and of their momenta m v.
     std::size_t tangentSize() const override {
         std::size_t free = 0;
-        for (std::size_t a = 0; a < clock_.size(); ++a) free += forces_.inverseMass(a) > 0;
+        for (std::size_t a = 0; a < clock_.size(); ++a) free += elements_.inverseMass(a) > 0;
         return 2 * free;
     }
     /// The drifts and kicks once more, with the variations.
@@ -75,7 +75,7 @@ public:
         const auto exchange = [&](bool isIn) {
             for (std::size_t c = 0; c < W.size() / size; ++c)
                 for (std::size_t a = 0, i = 0; a < n; ++a) {
-                    const double inverse = forces_.inverseMass(a);
+                    const double inverse = elements_.inverseMass(a);
                     if (!(inverse > 0)) continue;
                     double *w = W.data() + c * size + i++, *own = all.data() + c * 2 * n + a;
                     if (isIn)
@@ -91,8 +91,8 @@ public:
         };
         const auto kick = [&](int e, double time) {
             for (std::size_t c = 0; c < all.size(); c += 2 * n)
-                forces_.vary(e, time, x.data(), all.data() + c, all.data() + c + n);
-            forces_.kick(e, time, x.data(), x.data() + n);
+                elements_.vary(e, time, x.data(), all.data() + c, all.data() + c + n);
+            elements_.kick(e, time, x.data(), x.data() + n);
         };
         if (!sweep(drift, kick)) return false;
         exchange(false);
@@ -115,7 +115,7 @@ private:
             const int level = __builtin_ctzll(static_cast<unsigned long long>(tau));
             const double step = tick * static_cast<double>(2LL << level);
             for (const int e : byLevel_[static_cast<std::size_t>(level)]) {
-                for (const int a : forces_.nodesOf(e)) driftTo(static_cast<std::size_t>(a), tau);
+                for (const int a : elements_.nodesOf(e)) driftTo(static_cast<std::size_t>(a), tau);
                 kick(e, step);
             }
             if ((tau & 0xfff) == 0 && stop().stop_requested()) return false;
@@ -124,7 +124,7 @@ private:
         return true;
     }
 
-    Forces forces_;
+    Elements elements_;
     long long ticks_;  ///< of half the smallest step, in one step of the highest level
     std::vector<std::vector<int>> byLevel_;
     double h_;
@@ -135,11 +135,11 @@ private:
 
 }  // namespace
 
-template <class Forces>
-std::unique_ptr<Integrator> makeDyadicSteps(Forces forces, const Levels& levels, double step) {
-    return std::make_unique<DyadicSteps<Forces>>(std::move(forces), levels, step);
+template <class Elements>
+std::unique_ptr<Integrator> makeDyadicSteps(Elements elements, const Levels& levels, double step) {
+    return std::make_unique<DyadicSteps<Elements>>(std::move(elements), levels, step);
 }
-template std::unique_ptr<Integrator> makeDyadicSteps(BarForces, const Levels&, double);
-template std::unique_ptr<Integrator> makeDyadicSteps(MembraneForces, const Levels&, double);
+template std::unique_ptr<Integrator> makeDyadicSteps(BarElements, const Levels&, double);
+template std::unique_ptr<Integrator> makeDyadicSteps(MembraneElements, const Levels&, double);
 
 }  // namespace extremal

@@ -45,26 +45,24 @@ SpaceEntry asynchronousSpace() {
 bool isReal(const Settings& space) { return space.text("levels") == "real"; }
 bool isSynchronous(const Settings& space) { return space.text("levels") == "synchronous"; }
 
-const std::shared_ptr<const FieldProblem>& barOf(const System& system) {
-    return system.part<ScalarField>().problem;
+/// use(elements) with those of the system.
+template <class Use>
+auto withElements(const System& system, Use&& use) {
+    if (const Membrane* const membrane = system.parts.find<Membrane>())
+        return use(MembraneElements(membrane->problem));
+    return use(BarElements(system.part<ScalarField>().problem));
 }
-const std::shared_ptr<const MembraneProblem>& membraneOf(const System& system) {
-    return system.part<Membrane>().problem;
+
+bool hasElements(const System& system) {
+    if (system.parts.find<Membrane>()) return true;
+    const ScalarField* const field = system.parts.find<ScalarField>();
+    return field && field->problem->isBody;
 }
-bool isMembrane(const System& system) { return system.parts.find<Membrane>() != nullptr; }
 
 Levels levelsOf(const System& system, const Settings& space) {
-    const double C = space.number("courant");
-    const bool isBalanced = space.flag("balance");
-    Levels levels;
-    if (isMembrane(system)) {
-        const MembraneProblem& problem = *membraneOf(system);
-        std::vector<double> steps;
-        for (const auto& element : problem.elements) steps.push_back(C * problem.criticalStep(element));
-        levels = dyadicLevels(problem.mesh, steps, isBalanced);
-    } else {
-        levels = dyadicLevels(barOf(system)->mesh, C, barOf(system)->speed(), isBalanced);
-    }
+    Levels levels = withElements(system, [&](const auto& elements) {
+        return elements.levels(space.number("courant"), space.flag("balance"));
+    });
     // States are as far from each other as those of dyadic levels.
     if (isSynchronous(space)) std::fill(levels.level.begin(), levels.level.end(), 0);
     return levels;
@@ -96,19 +94,8 @@ std::optional<ImpliedStep> impliedStep(const Settings& space, const Settings& mo
     const ModelEntry* entry = findModel(model.type);
     if (!entry) return {};
     const System system = entry->make(model);
-    if (!system.parts.find<ScalarField>() && !isMembrane(system)) return {};
+    if (!system.parts.find<ScalarField>() && !system.parts.find<Membrane>()) return {};
     return ImpliedStep{levelsOf(system, space).largest(), {}, !isReal(space)};
-}
-
-/// The largest local wave speed at the start, relative to that at rest.
-double stiffening(const FieldProblem& problem, const double* u) {
-    double most = 1;
-    const int n = problem.size();
-    for (int e = 0; e < problem.mesh.elements(); ++e) {
-        const double strain = (u[(e + 1) % n] - u[e]) / problem.mesh.size(e);
-        most = std::max(most, problem.elastic.at(strain).modulus / problem.elastic.k);
-    }
-    return std::sqrt(most);
 }
 
 /// How often elements are updated in one step of this length.
@@ -132,9 +119,10 @@ void checkUpdates(const SchemeCase& scheme, Findings& findings) {
 
 void checkAsynchronous(const SchemeCase& scheme, Findings& findings) {
     checkUpdates(scheme, findings);
-    if (isMembrane(scheme.system)) return;  // none becomes stiffer than at rest
     const double courant = scheme.discretization.space.number("courant"),
-                 most = stiffening(*barOf(scheme.system), scheme.initial.x.data());
+                 most = withElements(scheme.system, [&](const auto&elements) {
+                     return elements.stiffening(scheme.initial.x.data());
+                 });
     if (!scheme.allowsUnstable && courant * most > 1 + 1e-12)
         findings.error("/space/courant",
                        formatNumber(courant) +
@@ -147,42 +135,18 @@ void checkAsynchronous(const SchemeCase& scheme, Findings& findings) {
 ElementClocks elementsOf(const System& system, const Discretization& d, double, double duration,
                          const double* x) {
     const Levels levels = levelsOf(system, d.space);
-    const double C = d.space.number("courant");
-    ElementClocks clocks;
-    const auto add = [&](int e, double place, double critical, double energy) {
-        const double h = isReal(d.space) ? C * critical : levels.step(e);
-        clocks.x.push_back(place);
-        clocks.step.push_back(h);
-        clocks.updates.push_back(std::floor(duration / h * (1 + 1e-12) + 0.5));
-        clocks.energy.push_back(energy);
-    };
-    if (isMembrane(system)) {
-        const MembraneProblem& problem = *membraneOf(system);
-        const double* v = x + problem.size();
-        for (int e = 0; e < problem.mesh.elements(); ++e) {
-            const auto& element = problem.elements[static_cast<std::size_t>(e)];
-            double energy = problem.elementEnergy(element, x), middle[2] = {0, 0};
-            for (const int node : element.nodes) {
-                const auto a = static_cast<std::size_t>(node);
-                energy += element.area / 6 * v[a] * v[a];
-                for (int k = 0; k < 2; ++k)
-                    middle[k] += problem.mesh.nodes[a][static_cast<std::size_t>(k)] / 3;
-            }
-            add(e, std::hypot(middle[0], middle[1]), problem.criticalStep(element), energy);
+    return withElements(system, [&](const auto& elements) {
+        ElementClocks clocks;
+        for (int e = 0; e < elements.elements(); ++e) {
+            const double h =
+                isReal(d.space) ? d.space.number("courant") * elements.criticalStep(e) : levels.step(e);
+            clocks.x.push_back(elements.place(e));
+            clocks.step.push_back(h);
+            clocks.updates.push_back(std::floor(duration / h * (1 + 1e-12) + 0.5));
+            clocks.energy.push_back(elements.energy(e, x, x + elements.nodes()));
         }
         return clocks;
-    }
-    const FieldProblem& problem = *barOf(system);
-    const int n = problem.size();
-    for (int e = 0; e < problem.mesh.elements(); ++e) {
-        const double L = problem.mesh.size(e);
-        const auto a = static_cast<std::size_t>(e), b = static_cast<std::size_t>((e + 1) % n);
-        const double va = x[n + e], vb = x[static_cast<std::size_t>(n) + b];
-        add(e, problem.mesh.x[a] + L / 2, L / problem.speed(),
-            L * problem.elastic.at((x[b] - x[a]) / L).energy +
-                L / 2 * (problem.potential(x[a]) + problem.potential(x[b])) + L / 4 * (va * va + vb * vb));
-    }
-    return clocks;
+    });
 }
 
 ChoiceGrid choices(const System&) {
@@ -206,16 +170,13 @@ ChoiceGrid choices(const System&) {
 }
 
 std::unique_ptr<Integrator> makeAsynchronous(const System& system, const Discretization& d, double step) {
-    const double C = d.space.number("courant");
-    if (isMembrane(system)) {
-        if (isReal(d.space)) return makeRealSteps(MembraneForces(membraneOf(system)), C, step);
-        return makeDyadicSteps(MembraneForces(membraneOf(system)), levelsOf(system, d.space), step);
-    }
-    const auto& problem = barOf(system);
-    if (problem->nodes.degree != 1)
+    if (const ScalarField* const bar = system.parts.find<ScalarField>();
+        bar && bar->problem->nodes.degree != 1)
         throw InvalidScene("/space", "asynchronous elements are linear", "elements of degree 1");
-    if (isReal(d.space)) return makeRealSteps(BarForces(problem), C, step);
-    return makeDyadicSteps(BarForces(problem), levelsOf(system, d.space), step);
+    return withElements(system, [&](const auto& elements) {
+        return isReal(d.space) ? makeRealSteps(elements, d.space.number("courant"), step)
+                               : makeDyadicSteps(elements, levelsOf(system, d.space), step);
+    });
 }
 
 WrittenAction written(const Discretization&) {
@@ -255,8 +216,7 @@ Family asynchronous() {
         const Levels levels = levelsOf(scheme.system, scheme.discretization.space);
         return std::max(5e-3, perUpdate * updatesIn(levels, scheme.step));
     }});
-    f.parts.set(SystemCondition{
-        [](const System& system) { return isMembrane(system) || system.fieldProblem().isBody; }});
+    f.parts.set(SystemCondition{hasElements});
     f.parts.set(StepOfSpace{impliedStep, "courant"});
     f.parts.set(ElementSteps{elementsOf});
     f.parts.set(SchemeIdentity{

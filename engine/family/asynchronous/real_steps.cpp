@@ -10,11 +10,11 @@ namespace {
 
 /// memory: positions and velocities of the nodes at their own times, these times, and the next time of each
 /// element.
-template <class Forces>
+template <class Elements>
 class RealSteps final : public Integrator {
 public:
-    RealSteps(Forces forces, double courant, double step) : forces_(std::move(forces)), h_(step) {
-        for (int e = 0; e < forces_.elements(); ++e) step_.push_back(courant * forces_.criticalStep(e));
+    RealSteps(Elements elements, double courant, double step) : elements_(std::move(elements)), h_(step) {
+        for (int e = 0; e < elements_.elements(); ++e) step_.push_back(courant * elements_.criticalStep(e));
         queue_.reserve(step_.size());
     }
 
@@ -22,11 +22,11 @@ public:
     void setStep(double h) override { h_ = h; }
     bool checksFinite() const override { return true; }
     std::vector<MemoryPart> memoryParts() const override {
-        const auto n = static_cast<std::size_t>(forces_.nodes());
+        const auto n = static_cast<std::size_t>(elements_.nodes());
         return {{"positions", n}, {"velocities", n}, {"times of the nodes", n}, {"next times", step_.size()}};
     }
     void begin(State& state) override {
-        const auto n = static_cast<std::size_t>(forces_.nodes());
+        const auto n = static_cast<std::size_t>(elements_.nodes());
         state.memory.assign(state.x.begin(), state.x.end());
         state.memory.insert(state.memory.end(), n, state.t);
         for (const double h : step_) state.memory.push_back(state.t + h / 2);
@@ -37,11 +37,11 @@ public:
         report.step = h_;
         if (state.memory.empty()) begin(state);
         before_ = state;
-        const auto n = static_cast<std::size_t>(forces_.nodes());
+        const auto n = static_cast<std::size_t>(elements_.nodes());
         double *u = state.memory.data(), *v = u + n, *t = v + n, *next = t + n;
         // The times of the elements are all there is to know of the queue: a heap over them is made anew.
         queue_.clear();
-        for (int e = 0; e < forces_.elements(); ++e) queue_.push_back({next[e], e});
+        for (int e = 0; e < elements_.elements(); ++e) queue_.push_back({next[e], e});
         std::make_heap(queue_.begin(), queue_.end());
         const auto drift = [&](int node, double time) {
             const auto a = static_cast<std::size_t>(node);
@@ -52,8 +52,8 @@ public:
             std::pop_heap(queue_.begin(), queue_.end());
             auto& [time, e] = queue_.back();
             const double h = step_[static_cast<std::size_t>(e)];
-            for (const int a : forces_.nodesOf(e)) drift(a, time);
-            forces_.kick(e, h, u, v);
+            for (const int a : elements_.nodesOf(e)) drift(a, time);
+            elements_.kick(e, h, u, v);
             time = next[e] = time + h;
             std::push_heap(queue_.begin(), queue_.end());
             if ((++report.cost.evaluations & 0xfff) == 0 && stop().stop_requested()) {
@@ -96,17 +96,17 @@ private:
     };
     /// All nodes at time `now`; the last kick of element e stood for the times up to next - h/2.
     void synchronise(double now, const double* memory, double* x) const {
-        const auto n = static_cast<std::size_t>(forces_.nodes());
+        const auto n = static_cast<std::size_t>(elements_.nodes());
         const double *u = memory, *v = u + n, *t = v + n, *next = t + n;
         for (std::size_t a = 0; a < n; ++a) {
             x[a] = u[a] + (now - t[a]) * v[a];
             x[n + a] = v[a];
         }
-        for (int e = 0; e < forces_.elements(); ++e)
-            forces_.kick(e, now - (next[e] - step_[static_cast<std::size_t>(e)] / 2), x, x + n);
+        for (int e = 0; e < elements_.elements(); ++e)
+            elements_.kick(e, now - (next[e] - step_[static_cast<std::size_t>(e)] / 2), x, x + n);
     }
 
-    Forces forces_;
+    Elements elements_;
     double h_;
     std::vector<double> step_;
     std::vector<Event> queue_;
@@ -115,11 +115,11 @@ private:
 
 }  // namespace
 
-template <class Forces>
-std::unique_ptr<Integrator> makeRealSteps(Forces forces, double courant, double step) {
-    return std::make_unique<RealSteps<Forces>>(std::move(forces), courant, step);
+template <class Elements>
+std::unique_ptr<Integrator> makeRealSteps(Elements elements, double courant, double step) {
+    return std::make_unique<RealSteps<Elements>>(std::move(elements), courant, step);
 }
-template std::unique_ptr<Integrator> makeRealSteps(BarForces, double, double);
-template std::unique_ptr<Integrator> makeRealSteps(MembraneForces, double, double);
+template std::unique_ptr<Integrator> makeRealSteps(BarElements, double, double);
+template std::unique_ptr<Integrator> makeRealSteps(MembraneElements, double, double);
 
 }  // namespace extremal

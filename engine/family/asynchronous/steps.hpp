@@ -21,18 +21,18 @@
 
 #include <memory>
 
-#include "engine/family/asynchronous/element_forces.hpp"
+#include "engine/family/asynchronous/elements.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/mesh/levels.hpp"
 
 namespace extremal {
 
 /// `step`: of the highest level. Of bars and membranes.
-template <class Forces>
-std::unique_ptr<Integrator> makeDyadicSteps(Forces forces, const Levels& levels, double step);
+template <class Elements>
+std::unique_ptr<Integrator> makeDyadicSteps(Elements elements, const Levels& levels, double step);
 
 /// Elements by a queue of their times; `step` is the time between states.
-template <class Forces>
-std::unique_ptr<Integrator> makeRealSteps(Forces forces, double courant, double step);
+template <class Elements>
+std::unique_ptr<Integrator> makeRealSteps(Elements elements, double courant, double step);
 
 }  // namespace extremal

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The elements of a bar or a membrane with masses at the nodes, for schemes that take them one by one.
 ///
-/// Both have the same members: elements(), nodes(), nodesOf(e), the nodes that element e kicks, kick(e, h, u,
-/// v): v += h M^{-1} (-dV_e/du) at values u, vary(e, h, u, du, dv), the same of a variation: dv += h M^{-1}
-/// (-d^2V_e/du^2) du, inverseMass(a), and criticalStep(e), the longest stable step of the element alone, at
-/// rest.
+/// Both have the same members, and nothing else of the family knows which of the two it has:
+///     elements(), nodes(), nodesOf(e)   the nodes that element e kicks
+///     kick(e, h, u, v)                  v += h M^{-1} (-dV_e/du) at values u
+///     vary(e, h, u, du, dv)             the same of a variation: dv += h M^{-1} (-d^2V_e/du^2) du
+///     inverseMass(a)                    1/m_a; 0 of nodes that are held
+///     criticalStep(e)                   the longest stable step of the element alone, at rest
+///     levels(C, isBalanced)             dyadic levels for steps of C times that
+///     place(e), energy(e, u, v)         where it is in plots of elements, and its energy
+///     stiffening(u)                     the largest local wave speed at u, relative to that at rest
 #pragma once
 
 #include <array>
@@ -18,9 +23,9 @@
 
 namespace extremal {
 
-class BarForces {
+class BarElements {
 public:
-    explicit BarForces(std::shared_ptr<const FieldProblem> problem);
+    explicit BarElements(std::shared_ptr<const FieldProblem> problem);
 
     int elements() const { return static_cast<int>(size_.size()); }
     int nodes() const { return static_cast<int>(inverse_.size()); }
@@ -55,15 +60,24 @@ public:
     }
     double inverseMass(std::size_t a) const { return inverse_[a]; }
 
+    Levels levels(double courant, bool isBalanced) const {
+        return dyadicLevels(problem_->mesh, courant, problem_->speed(), isBalanced);
+    }
+    double place(int e) const {
+        return problem_->mesh.x[static_cast<std::size_t>(e)] + size_[static_cast<std::size_t>(e)] / 2;
+    }
+    double energy(int e, const double* u, const double* v) const;
+    double stiffening(const double* u) const;
+
 private:
     std::shared_ptr<const FieldProblem> problem_;
     bool hasPotential_;
     std::vector<double> size_, inverse_;  ///< 1 / m_a; 0 of fixed nodes
 };
 
-class MembraneForces {
+class MembraneElements {
 public:
-    explicit MembraneForces(std::shared_ptr<const MembraneProblem> problem);
+    explicit MembraneElements(std::shared_ptr<const MembraneProblem> problem);
 
     int elements() const { return static_cast<int>(problem_->elements.size()); }
     int nodes() const { return static_cast<int>(inverse_.size()); }
@@ -92,6 +106,11 @@ public:
         }
     }
     double inverseMass(std::size_t a) const { return inverse_[a]; }
+
+    Levels levels(double courant, bool isBalanced) const;
+    double place(int e) const;  ///< its distance from the centre
+    double energy(int e, const double* u, const double* v) const;
+    double stiffening(const double*) const { return 1; }  ///< no material of a membrane becomes stiffer
 
 private:
     const MembraneProblem::Element& element(int e) const {
