@@ -104,6 +104,13 @@ private slots:
             for (const PlotWidget* plot : plots()) all << plot->figure().aspect;
             return all;
         };
+        // The cards are placed by events, and once more where a scroll bar comes or goes.
+        const auto isPlaced = [&] {
+            const QList<QRect> now = places();
+            QCoreApplication::processEvents();
+            return places() == now;
+        };
+        QTRY_VERIFY(isPlaced());
         const QList<QRect> before = places();
         const QList<Aspect> whole = aspects();
         const QPoint from = window.onStage(window.body(1));
@@ -112,7 +119,8 @@ private slots:
         for (int i = 1; i <= 12; ++i) {  // around where it is
             const long long made = window.compareView().figuresMade();
             window.move(from + (60 * QPointF(std::cos(i) - 1, std::sin(i))).toPoint());
-            QTRY_VERIFY(window.isPreviewing() && window.compareView().figuresMade() > made);
+            QTRY_VERIFY_WITH_TIMEOUT(window.isPreviewing() && window.compareView().figuresMade() > made,
+                                     60000 * tests::slowdown);
             QCoreApplication::processEvents();  // the cards are placed
             others += aspects() != whole;
             QCOMPARE(places(), before);
