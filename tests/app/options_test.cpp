@@ -80,6 +80,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
         return added({option, "6"});
     if (verb == "orbit" && option == "--manifold") return added({option, "unstable"});
     if (verb == "fit" && option == "--data") return replaced("m.csv", "missing.csv");
+    if (verb == "motions" && option == "--starts") return replaced("m.csv", "missing.csv");
     if (verb == "fit" && option == "--free") return replaced("/model/l", "/model/g");
     if (verb == "program" && option == "--with") return added(words("--with /model/l"));
     if (verb == "gradient" && option == "--of") return replaced("theta", "p_theta");
@@ -413,6 +414,25 @@ private slots:
         // Before the verb as well.
         if (!own.contains("--set") && !verb.isEmpty())
             QCOMPARE(call.outcome(words("--set /nonsense/key=1") + callOf(verb) + needsOf(verb)).code, 2);
+    }
+
+    /// A second call of the same kind is no other's work, and neither is one of another scene. (A scene in a
+    /// file of a name of its own, as `formulas` writes it, is the user's.)
+    void ownFilesAreReplaced_data() {
+        QTest::addColumn<QString>("verb");
+        for (const app::VerbOptions& row : app::optionTable())
+            if (has(row, "--out") && has(row, "--set") && !row.verb.starts_with("study") &&
+                row.verb != "formulas")
+                QTest::newRow(std::string(row.verb).c_str()) << text(row.verb);
+    }
+    void ownFilesAreReplaced() {
+        QFETCH(QString, verb);
+        const QStringList given = callOf(verb) + sampleOf(verb, "--out").with;
+        Call call({});
+        for (const QStringList& more : {QStringList(), QStringList(), words("--set /time/end=1")}) {
+            const Outcome result = call.outcome(given + more);
+            QVERIFY2(result.code == 0, qPrintable(result.err));
+        }
     }
 
     void whatHasNoMeaningIsRefused_data() {

@@ -56,7 +56,8 @@ fs::path folderOfFile(const fs::path& file) {
 }
 
 /// The documents that list the files beside them: of a run, and of answers (answer_files.hpp).
-constexpr const char* documents[] = {"summary.json", "orbit.json", "fit.json"};
+constexpr const char* documents[] = {"summary.json",  "orbit.json", "fit.json",
+                                     "gradient.json", "steer.json", "motions.json"};
 
 /// One of them in the folder; null where it is missing, or is not the program's.
 Value documentIn(const fs::path& folder, const std::string& name) {
@@ -138,10 +139,10 @@ bool isOwn(const fs::path& file, std::optional<std::string_view> text) {
         // Before a run its columns are not known, but how they begin.
         return text ? hasColumns(first, firstLineOf(*text)) || isListed(file)
                     : isListed(file) || first.starts_with("t,") || first.starts_with("x,") ||
-                          first.starts_with("label,");
+                          first.starts_with("label,") || first.starts_with("panel,scheme,");
     }
     const std::string bytes = contentOf(file);
-    return isOwnPicture(bytes) || isMarked(bytes);
+    return isOwnPicture(bytes) || isMarked(bytes) || isListed(file);
 }
 
 void refuseRead(const fs::path& file, const Replacing& replacing) {
