@@ -25,6 +25,7 @@ struct Arguments {
     ProgramRequest program;
     OrbitOptions orbit;
     FitOptions fit;
+    MotionsOptions motions;
     GradientOptions gradient;
     SteerOptions steer;
     FormulasRequest formulas;

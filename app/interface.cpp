@@ -37,7 +37,9 @@ void addSnapshot(CLI::App& app, Arguments& arguments) {
         ->type_name("WxH");
     verb.add_option("--view", snapshot.view, "one view (extremal list views), or all")->type_name("NAME");
     CLI::Option* time =
-        verb.add_option("--time", snapshot.time, "the end by default")->type_name("T")->check(finiteNumber());
+        verb.add_option("--time", snapshot.time, "by default that of the scene (\"show\"), or the end")
+            ->type_name("T")
+            ->check(finiteNumber());
     CLI::Option* compare = verb.add_option("--compare", snapshot.compareWith,
                                            "exit 1 if the picture differs, and write FILE.diff.png")
                                ->type_name("BASE.png");
@@ -371,6 +373,9 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() 
         {"fit",
          {"extremal run preset:pendulum --out run && extremal fit preset:pendulum --data run/rk4.csv "
           "--columns q.theta --free /model/l --out fit"}},
+        {"motions",
+         {"extremal run preset:kepler --out run && extremal motions preset:kepler --starts run/rk4.csv "
+          "--out motions"}},
         {"gradient",
          {"extremal gradient preset:pendulum --of 'theta^2/2' --with /model/l,/model/g,/initial/q/0 "
           "--out gradient"}},

@@ -71,6 +71,18 @@ void addFit(CLI::App& app, Arguments& arguments) {
     addCommon(verb, arguments.common);
 }
 
+void addMotions(CLI::App& app, Arguments& arguments) {
+    MotionsOptions& motions = arguments.motions;
+    CLI::App& verb = addVerb(app, arguments, "motions",
+                             "the motions of one scheme from many starts, and where each ends", true);
+    verb.add_option("--starts", motions.starts,
+                    "a CSV with the columns of the state, a start in each row: that of a run will do")
+        ->required()
+        ->type_name("FILE");
+    addPlace(verb, motions);
+    addCommon(verb, arguments.common);
+}
+
 void addGradient(CLI::App& app, Arguments& arguments) {
     GradientOptions& gradient = arguments.gradient;
     CLI::App& verb = addVerb(
@@ -120,6 +132,7 @@ void addSteer(CLI::App& app, Arguments& arguments) {
 void addAnswers(CLI::App& app, Arguments& arguments) {
     addOrbit(app, arguments);
     addFit(app, arguments);
+    addMotions(app, arguments);
     addGradient(app, arguments);
     addSteer(app, arguments);
 }

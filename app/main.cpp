@@ -48,6 +48,8 @@ int dispatch(int argc, char** argv) {
     if (arguments->verb == "gradient")
         return gradientVerb(arguments->scene, arguments->gradient, arguments->common);
     if (arguments->verb == "steer") return steerVerb(arguments->scene, arguments->steer, arguments->common);
+    if (arguments->verb == "motions")
+        return motionsVerb(arguments->scene, arguments->motions, arguments->common);
     if (arguments->verb == "fit") return fitVerb(arguments->scene, arguments->fit, arguments->common);
     if (arguments->verb == "formulas")
         return formulasVerb(arguments->scene, arguments->formulas, arguments->common);

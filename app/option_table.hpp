@@ -47,6 +47,7 @@ inline const std::vector<VerbOptions>& optionTable() {
                           {"--scheme", "--period", "--energy", "--hold", "--follow", "--points", "--guess",
                            "--manifold", "--starts"}})},
         {"fit", joined({scene, words, files, {"--data", "--free", "--columns", "--scheme", "--bias"}})},
+        {"motions", joined({scene, words, limits, files, {"--starts", "--scheme"}})},
         {"gradient", joined({scene, words, files, {"--of", "--over", "--with", "--scheme"}})},
         {"steer",
          joined({scene, words, files, {"--control", "--of", "--over", "--end", "--bounds", "--scheme"}})},

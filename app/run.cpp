@@ -4,13 +4,18 @@
 
 #include "app/load.hpp"
 #include "app/report.hpp"
+#include "app/study_work.hpp"
 #include "app/verbs.hpp"
 #include "app/watch_run.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/run/cases/many_run.hpp"
+#include "engine/run/cases/starts_file.hpp"
 #include "engine/run/files/event_files.hpp"
 #include "engine/run/files/export.hpp"
 #include "engine/run/missing.hpp"
 #include "engine/scene/read/json.hpp"
+#include "engine/scene/single_scheme.hpp"
+#include "engine/study/catalog.hpp"
 
 namespace extremal::app {
 namespace {
@@ -121,6 +126,99 @@ int runVerb(const std::string& scene, const RunVerbOptions& given, const CommonO
     } catch (const ExportError& e) {
         return tellUnwritable(e);
     }
+}
+
+namespace {
+
+struct MotionsAnswer {
+    std::string scheme, problem, remedy;
+    std::vector<std::string> columns;  ///< of a state
+    std::vector<std::vector<double>> starts;
+    ManyMotions motions;
+    bool isFound() const { return true; }
+
+    std::size_t unfinished() const {
+        return static_cast<std::size_t>(std::count_if(
+            motions.all.begin(), motions.all.end(),
+            [](const ManyMotions::Motion& motion) { return motion.outcome != Outcome::converged; }));
+    }
+    double largestError() const {
+        double most = 0;
+        for (const auto& motion : motions.all) most = std::max(most, std::abs(motion.energyError));
+        return most;
+    }
+};
+
+Value known(double number) { return std::isfinite(number) ? Value(number) : Value(); }
+
+StudyTable motionsTable(const MotionsAnswer& answer) {
+    StudyTable table{"motions", {"start"}, {}};
+    for (const std::string& name : answer.columns) table.columns.push_back("start." + name);
+    table.columns.emplace_back("t");
+    for (const std::string& name : answer.columns) table.columns.push_back(name);
+    for (const char* name : {"steps", "cause", "energy_error"}) table.columns.emplace_back(name);
+    for (std::size_t i = 0; i < answer.starts.size(); ++i) {
+        const ManyMotions::Motion& motion = answer.motions.all[i];
+        Value::Array row{static_cast<double>(i)};
+        for (const double x : answer.starts[i]) row.emplace_back(x);
+        row.emplace_back(motion.t);
+        for (const double x : motion.x) row.push_back(known(x));
+        row.emplace_back(static_cast<double>(motion.steps));
+        row.emplace_back(std::string(name(motion.outcome)));
+        row.push_back(known(motion.energyError));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+Value motionsValue(const MotionsAnswer& answer) {
+    Value document{Value::Object{}};
+    document.set("scheme", answer.scheme);
+    document.set("motions", static_cast<double>(answer.starts.size()));
+    document.set("together", static_cast<double>(answer.motions.together));
+    document.set("unfinished", static_cast<double>(answer.unfinished()));
+    document.set("max_energy_error", known(answer.largestError()));
+    return document;
+}
+
+}  // namespace
+
+int motionsVerb(const std::string& scene, const MotionsOptions& given, const CommonOptions& options) {
+    return runAnswerVerb<MotionsAnswer>(
+        scene,
+        {.out = given.out,
+         .files = {"scene.json", "motions.csv", "motions.json"},
+         .inputs = {given.starts},
+         .doing = "computing motions",
+         .unknown = "nothing is written",
+         .work =
+             [&](const ResolvedScene& resolved, const std::stop_token& stop) {
+                 const std::size_t scheme = schemeNamed(resolved, given.scheme);
+                 const System& system = *systemOf(resolved, resolved.schemes[scheme]);
+                 MotionsAnswer answer;
+                 answer.scheme = resolved.scene.schemes[scheme].label;
+                 for (const Quantity& column : stateColumns(system)) answer.columns.push_back(column.name);
+                 answer.starts = readStartsFile(given.starts, system);
+                 answer.motions = runMany(resolved, scheme, answer.starts, {options.threads, true, {}}, stop);
+                 return answer;
+             },
+         .document = motionsValue,
+         .written =
+             [&](const MotionsAnswer& answer, const Value& document) {
+                 return AnswerFiles{"motions",
+                                    document,
+                                    writeScene(loadScene(scene, options).scene),
+                                    {{"motions.csv", csvText(motionsTable(answer))}}};
+             },
+         .text =
+             [](const MotionsAnswer& answer) {
+                 const std::size_t count = answer.starts.size(), unfinished = answer.unfinished();
+                 return answer.scheme + ": " + std::to_string(count) + " motions, " +
+                        std::to_string(answer.motions.together) + " of them together, " +
+                        std::to_string(unfinished) + " not to the end; largest energy error " +
+                        number(answer.largestError()) + "\n";
+             }},
+        options);
 }
 
 }  // namespace extremal::app

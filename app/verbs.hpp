@@ -102,6 +102,11 @@ struct FitOptions : FitRequest {
     std::string out, data;
 };
 
+struct MotionsOptions {
+    std::string out, starts;
+    std::string scheme;  ///< its label; empty: the first enabled one
+};
+
 struct GradientOptions : GradientRequest {
     std::string out;
 };
@@ -111,6 +116,8 @@ struct SteerOptions : SteeringRequest {
 };
 
 int runVerb(const std::string& scene, const RunVerbOptions& run, const CommonOptions& options);
+/// The motions of one scheme from many starts.
+int motionsVerb(const std::string& scene, const MotionsOptions& motions, const CommonOptions& options);
 int passportVerb(const std::string& scene, const PassportRequest& request, const CommonOptions& options);
 int programVerb(const std::string& scene, const ProgramRequest& request, const CommonOptions& options);
 int fitVerb(const std::string& scene, const FitOptions& fit, const CommonOptions& options);

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "extremal/run.hpp"
 
+#include <atomic>
+#include <future>
 #include <stdexcept>
+#include <stop_token>
 
 #include "engine/core/text/text.hpp"
+#include "engine/run/cases/many_run.hpp"
 #include "engine/run/files/export.hpp"
 #include "engine/run/run.hpp"
+#include "engine/scene/single_scheme.hpp"
 #include "library/data.hpp"
 
 namespace extremal::api {
@@ -147,6 +152,49 @@ Comparison run(const Scene& scene, unsigned threads, const Progress& progress) {
         work.stop();
     work.wait();
     return latestOf(work);
+}
+
+Motions runMany(const Scene& scene, std::span<const double> starts, std::string_view scheme, unsigned threads,
+                const Progress& progress) {
+    const ResolvedScene& resolved = *scene.data().read.resolved;
+    const std::size_t index = schemeNamed(resolved, std::string(scheme));
+    const System& system = *extremal::systemOf(resolved, resolved.schemes[index]);
+    Motions result;
+    for (const Quantity& column : stateColumns(system)) result.columns.push_back(column.name);
+    const std::size_t width = result.columns.size();
+    if (width == 0 || starts.size() % width != 0)
+        throw InvalidScene("/starts",
+                           "have " + std::to_string(starts.size()) + " numbers, which are no states of " +
+                               std::to_string(width),
+                           joinNames(result.columns));
+    std::vector<std::vector<double>> all;
+    for (std::size_t i = 0; i < starts.size(); i += width)
+        all.emplace_back(starts.begin() + static_cast<std::ptrdiff_t>(i),
+                         starts.begin() + static_cast<std::ptrdiff_t>(i + width));
+    std::atomic<std::size_t> done{0};
+    ManyOptions options{threads, true, [&done](std::size_t now) { done = now; }};
+    std::stop_source stop;
+    auto work = std::async(std::launch::async, [&] {
+        return extremal::runMany(resolved, index, all, options, stop.get_token());
+    });
+    const auto fraction = [&] {
+        return all.empty() ? 1 : static_cast<double>(done) / static_cast<double>(all.size());
+    };
+    if (!watch([&](auto time) { return work.wait_for(time) == std::future_status::ready; }, fraction,
+               progress))
+        stop.request_stop();
+    ManyMotions motions = work.get();
+    result.together = motions.together;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        ManyMotions::Motion& motion = motions.all[i];
+        if (motion.x.empty()) motion.x = all[i];  // stopped before it began
+        result.states.insert(result.states.end(), motion.x.begin(), motion.x.end());
+        result.causes.emplace_back(name(motion.outcome));
+        result.steps.push_back(motion.steps);
+        result.t.push_back(motion.steps > 0 ? motion.t : resolved.scene.start.value);
+        result.energyError.push_back(motion.energyError);
+    }
+    return result;
 }
 
 }  // namespace extremal::api

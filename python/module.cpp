@@ -264,6 +264,33 @@ void bindResult(py::module_& m) {
                            [&](const api::Progress& look) { return api::run(scene, threads, look); });
         },
         py::arg("scene"), py::arg("threads") = 0, py::arg("progress") = py::none());
+    m.def(
+        "run_many",
+        [](const api::Scene& scene,
+           const py::array_t<double, py::array::c_style | py::array::forcecast>& starts,
+           const std::string& scheme, unsigned threads, const std::optional<py::function>& progress) {
+            if (starts.ndim() != 2)
+                throw InvalidScene("/starts", "must be an array of two dimensions, a state in each row");
+            const std::span<const double> numbers(starts.data(), static_cast<std::size_t>(starts.size()));
+            const api::Motions motions = watched(progress, [&](const api::Progress& look) {
+                return api::runMany(scene, numbers, scheme, threads, look);
+            });
+            py::dict all;
+            all["columns"] = motions.columns;
+            const auto copyOf = [](const auto& values) {
+                using Number = typename std::decay_t<decltype(values)>::value_type;
+                return py::array_t<Number>(static_cast<py::ssize_t>(values.size()), values.data());
+            };
+            all["states"] = copyOf(motions.states).reshape({starts.shape(0), starts.shape(1)});
+            all["causes"] = motions.causes;
+            all["steps"] = copyOf(motions.steps);
+            all["t"] = copyOf(motions.t);
+            all["energy_error"] = copyOf(motions.energyError);
+            all["together"] = motions.together;
+            return all;
+        },
+        py::arg("scene"), py::arg("starts"), py::kw_only(), py::arg("scheme") = "", py::arg("threads") = 0,
+        py::arg("progress") = py::none());
 }
 
 void bindFigure(py::module_& m) {

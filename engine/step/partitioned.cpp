@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/step/partitioned.hpp"
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/corrections.hpp"
+#include "engine/integrator/many_states.hpp"
 #include "engine/integrator/shared_force.hpp"
 #include "engine/step/coordinate_watch.hpp"
 #include "engine/step/flow_method.hpp"
@@ -30,8 +35,15 @@ void multiply(const Eigen::MatrixXd& jacobian, bool isKick, bool isOwn, bool isI
     }
 }
 
+constexpr int many = TakesManyStates::together;
+
+/// y += s x of one coordinate of all motions.
+void addTo(double* y, double s, const double* x) {
+    for (int i = 0; i < many; ++i) y[i] += s * x[i];
+}
+
 template <int D>
-class Partitioned final : public FlowMethod<D>, public SharesForce {
+class Partitioned final : public FlowMethod<D>, public SharesForce, public TakesManyStates {
     using Base = FlowMethod<D>;
     using Vector = typename Base::Vector;
 
@@ -97,6 +109,27 @@ public:
         return Base::advanceBlock(state, nodes, 1, clock);
     }
 
+    bool advanceMany(double* x, long long steps) override {
+        const auto& m = this->mechanics_;
+        if (!m.isSeparable || m.isTimeDependent || !m.forces || !hasForcesOf(x)) return false;
+        const auto add = ForThisMachine<&addTo>::call();
+        const std::size_t half = static_cast<std::size_t>(this->d()) * many;
+        bool isForceFresh = true;
+        for (long long step = 0; step < steps; ++step)
+            for (const PartitionedStage& stage : stages_) {
+                const double s = stage.fraction * this->h();
+                if (stage.isKick() && !isForceFresh)
+                    m.forces(m.model.get(), manyTimes_.data(), many, x, manyForces_.data());
+                isForceFresh = stage.isKick();
+                for (std::size_t k = 0; k < half; k += many)
+                    if (stage.isKick())
+                        add(x + half + k, s, &manyForces_[k]);
+                    else
+                        add(x + k, s * inverseMass_(static_cast<Eigen::Index>(k / many)), x + half + k);
+            }
+        return true;
+    }
+
     /// The action of the step of a separable system, whose differential is p_1 dq_1 - p_0 dq_0: s T for a
     /// drift over s, -s V for a kick.
     std::span<const Quantity> quantities() const override {
@@ -123,6 +156,26 @@ public:
     }
 
 private:
+    /// Whether the forces of these motions are those of each by itself; they are kept.
+    bool hasForcesOf(const double* x) {
+        const auto& m = this->mechanics_;
+        const auto d = static_cast<std::size_t>(this->d());
+        manyForces_.resize(d * many);
+        manyTimes_.assign(many, 0.0);
+        m.forces(m.model.get(), manyTimes_.data(), many, x, manyForces_.data());
+        Vector q = inverseMass_, f = inverseMass_;
+        for (std::size_t i = 0; i < many; ++i) {
+            for (std::size_t k = 0; k < d; ++k) q(static_cast<Eigen::Index>(k)) = x[k * many + i];
+            m.force(m.model.get(), 0.0, q.data(), f.data());
+            for (std::size_t k = 0; k < d; ++k) {
+                const double ofMany = manyForces_[k * many + i], alone = f(static_cast<Eigen::Index>(k));
+                if (std::bit_cast<std::uint64_t>(ofMany) != std::bit_cast<std::uint64_t>(alone) &&
+                    std::isfinite(alone))
+                    return false;
+            }
+        }
+        return true;
+    }
     void step(double t) override {
         takeStages(t, [](auto&&...) { return true; });
     }
@@ -207,6 +260,7 @@ private:
     std::vector<PartitionedStage> stages_;
     Vector dq_, dp_, start_, change_, force_, forceAt_, inverseMass_;
     double forceTime_ = 0;  ///< of force_, where forces depend on time
+    std::vector<double> manyForces_, manyTimes_;
 };
 
 }  // namespace

@@ -106,4 +106,23 @@ using Progress = std::function<bool(double fraction)>;
 /// Runs everything and returns it; partial results if it was stopped.
 EXTREMAL_API Comparison run(const Scene& scene, unsigned threads = 0, const Progress& progress = {});
 
+/// Where the motions of one scheme from many starts end.
+struct Motions {
+    std::vector<std::string> columns;  ///< of a state: "q.x", "p.x", ...
+    /// The last state of each, motion after motion.
+    std::vector<double> states;
+    /// Why a motion has not reached the end ("not-finite", "lost", "stopped", ...); else empty.
+    std::vector<std::string> causes;
+    std::vector<long long> steps;
+    std::vector<double> t;            ///< of the last state
+    std::vector<double> energyError;  ///< H there less H at the start; NaN where there is none
+    std::size_t together = 0;         ///< so many were computed in the lanes of vector instructions
+};
+
+/// From each of these states, of as many numbers as the state has columns, one after the other. `scheme`: a
+/// label; empty: the first enabled one. Each motion has the bits that it has by itself. Events of the scene
+/// are not looked for. Throws InvalidScene for a label that no scheme has, or starts that are none.
+EXTREMAL_API Motions runMany(const Scene& scene, std::span<const double> starts, std::string_view scheme = {},
+                             unsigned threads = 0, const Progress& progress = {});
+
 }  // namespace extremal::api

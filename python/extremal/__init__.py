@@ -16,6 +16,7 @@ from ._extremal import fit as _fit
 from ._extremal import gradient as _gradient
 from ._extremal import orbit as _orbit
 from ._extremal import run as _run
+from ._extremal import run_many as _run_many
 from ._extremal import steer as _steer
 from .formula import Symbol, formula
 from .jet import Jet, derivatives
@@ -26,7 +27,7 @@ __all__ = ["Catalogue", "Comparison", "Entry", "Figure", "InvalidScene", "Jet", 
            "Symbol", "__version__", "acos", "acosh", "add_system", "asin", "asinh", "atan", "atan2", "atanh", "baselines",
            "catalogue", "catalogue_names", "ceil", "check", "compositions", "cos", "cosh", "erf", "erfc", "exp", "fit", "floor",
            "formula", "gradient", "lagrangian", "log", "log10", "models", "observables", "orbit", "presets",
-           "profiles", "quadratures", "run", "scene", "schemes", "sign", "sin", "sinh", "spaces", "sqrt", "steer", "studies",
+           "profiles", "quadratures", "run", "run_many", "scene", "schemes", "sign", "sin", "sinh", "spaces", "sqrt", "steer", "studies",
            "study", "tan", "tanh", "views"]
 
 
@@ -63,6 +64,26 @@ def run(source, changes=(), *, threads=0, progress=None, folder="", trust=False)
               the run, whose results are then partial. Ctrl-C stops it with KeyboardInterrupt.
     """
     return _run(scene(source, changes, folder=folder, trust=trust), threads, progress)
+
+
+def run_many(source, starts, changes=(), *, scheme="", threads=0, progress=None, folder="", trust=False):
+    """The motions of one scheme from many starts, as a dict of arrays: where each ends.
+
+    starts   an array of two dimensions, in each row a state: the columns of a run after t (q.x, .., p.x, ..)
+    scheme   the label of a scheme; by default the first enabled one
+    progress as of run()
+
+    states   the last state of each motion, an array like starts; columns names its columns
+    t, steps of that state; causes says why a motion has not reached the end ("" where it has)
+    energy_error  H there less H at the start
+
+    Motions go through explicit steps of one length together, in the lanes of vector instructions (`together` counts
+    them), and have the bits that each has by itself. Events of the scene are not looked for.
+
+    >>> extremal.run_many("preset:henon-heiles", starts)["energy_error"].max()
+    """
+    return _run_many(scene(source, changes, folder=folder, trust=trust), starts, scheme=scheme, threads=threads,
+                     progress=progress)
 
 
 def study(kind, source, changes=(), *, progress=None, folder="", trust=False, **options):

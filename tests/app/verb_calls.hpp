@@ -22,6 +22,7 @@ inline QStringList callOf(const QString& verb) {
         {"program", words("program s.json")},
         {"orbit", words("orbit s.json")},
         {"fit", words("fit s.json")},
+        {"motions", words("motions s.json")},
         {"gradient", words("gradient s.json")},
         {"steer", words("steer s.json")},
         {"formulas", words("formulas s.json")},
@@ -56,6 +57,7 @@ inline QStringList needsOf(const QString& verb) {
         {"program", words("--out p.cpp")},
         {"orbit", words("--out d --period 2")},
         {"fit", words("--data m.csv --free /model/l --out d")},
+        {"motions", words("--starts m.csv --out d")},
         {"steer", words(R"(--set /model={"type":"lagrangian","coordinates":["x"],"lagrangian":"x_t^2/2+u*x",)"
                         R"("controls":{"u":"0"}} --over u^2/2 --end x --out d)")},
         {"gradient", words("--of theta --with /model/l --out d")},

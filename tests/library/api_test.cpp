@@ -122,6 +122,33 @@ private slots:
         QVERIFY(watched.isFinished());
     }
 
+    void manyMotionsEndWhereEachOfThemDoes() {
+        const api::Scene scene = api::Scene::load(
+            "preset:kepler",
+            {{"/schemes=[{\"label\":\"SV\",\"baseline\":\"stormer-verlet\",\"step\":0.02}]", "/time/end=5"}});
+        std::vector<double> starts;
+        for (int i = 0; i < 40; ++i)
+            for (const double x : {0.4 + 0.01 * i, 0.0, 0.0, 2.0}) starts.push_back(x);
+        const api::Motions many = api::runMany(scene, starts);
+        QCOMPARE(many.columns, (std::vector<std::string>{"q.x", "q.y", "p.x", "p.y"}));
+        QCOMPARE(many.together, std::size_t{40});
+        for (const std::size_t i : {0, 17, 39}) {
+            const api::Scene one = api::Scene::from(
+                scene.value(), {{"/initial/q/0=" + std::to_string(0.4 + 0.01 * static_cast<double>(i))}});
+            const api::Comparison run = api::run(one);
+            const auto x = run[0]["q.x"];
+            QVERIFY(std::abs(many.states[4 * i] - x.back()) < 1e-13);
+            QVERIFY(many.causes[i].empty() && many.steps[i] == 250 && std::abs(many.t[i] - 5) < 1e-12);
+        }
+        int calls = 0;
+        const api::Motions stopped = api::runMany(api::Scene::from(scene.value(), {{"/schemes/0/step=1e-7"}}),
+                                                  starts, "SV", 2, [&](double) { return ++calls < 3; });
+        QCOMPARE(stopped.causes[39], std::string("stopped"));
+        QCOMPARE(stopped.states.size(), starts.size());
+        QVERIFY_EXCEPTION_THROWN((void)api::runMany(scene, starts, "no such"), InvalidScene);
+        QVERIFY_EXCEPTION_THROWN((void)api::runMany(scene, std::span(starts).first(7)), InvalidScene);
+    }
+
     void figuresAreDataAndPictures() {
         const api::Comparison result = api::run(api::Scene::parse(pendulum));
         const std::vector<api::Figure> all = api::figures(result);

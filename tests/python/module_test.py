@@ -258,6 +258,24 @@ started.wait()
 
 
 class Answers(unittest.TestCase):
+    def test_many_motions(self):
+        starts = np.array([[0.4 + 0.01 * i, 0, 0, 2] for i in range(50)])
+        changes = ["/time/end=5", '/schemes=[{"label":"SV","baseline":"stormer-verlet","step":0.02}]']
+        many = extremal.run_many("preset:kepler", starts, changes)
+        self.assertEqual(many["together"], 50)
+        self.assertEqual(many["states"].shape, starts.shape)
+        self.assertTrue((many["steps"] == 250).all() and not any(many["causes"]))
+        one = extremal.run("preset:kepler", changes + ["/initial/q/0=0.4"])[0]
+        self.assertEqual([one[name][-1] for name in many["columns"]], list(many["states"][0]))
+        with self.assertRaises(extremal.InvalidScene) as caught:
+            extremal.run_many("preset:kepler", starts[:, :3], changes)
+        self.assertIn("/starts", str(caught.exception))
+        with self.assertRaises(extremal.InvalidScene):
+            extremal.run_many("preset:kepler", starts[0], changes)
+        stopped = extremal.run_many("preset:kepler", starts, changes + ["/schemes/0/step=1e-7"],
+                                    progress=lambda fraction: False)
+        self.assertTrue(all(cause == "stopped" for cause in stopped["causes"]))
+
     """Orbits and fits, whose numbers tests/engine/study measures."""
 
     SWING = {"extremal": 1, "model": {"type": "harmonic-oscillator", "m": 1, "k": 2}, "initial": {"q": [1]},
