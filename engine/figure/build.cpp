@@ -295,7 +295,20 @@ std::string extremesText(const Figure& figure) {
 
 }  // namespace
 
+bool canHaveScale(const Figure& figure, bool isLog) {
+    if (!figure.y.ticks.empty() || figure.heat()) return false;
+    const auto all = figure.series();
+    return !isLog || std::any_of(all.begin(), all.end(), [](const Series& s) {
+        return std::any_of(s.y.begin(), s.y.end(), [](double y) { return y > 0 && std::isfinite(y); });
+    });
+}
+
 void finishFigure(Figure& figure, const FigureContext& context, std::string_view what) {
+    if (const auto isLog = context.view.isLog;
+        isLog && *isLog != figure.y.isLog && canHaveScale(figure, *isLog)) {
+        figure.y.isLog = *isLog;
+        figure.y.range.reset();  // of the other scale
+    }
     markFailures(figure, context);
     hideWhatAxesCannotShow(figure);
     markEvents(figure, context);

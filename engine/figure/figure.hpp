@@ -224,6 +224,10 @@ Figure makeFigure(const Comparison& comparison, const View& view);
 /// The same for a system made before, or null: titles and units then come from the columns alone.
 Figure makeFigure(const Comparison& comparison, const View& view, const System* system);
 
+/// Whether its axis y can be logarithmic, or linear: not where y has named places or a map is drawn, and
+/// logarithmic only where something is positive.
+bool canHaveScale(const Figure& figure, bool isLog);
+
 /// Whether there is no data in it, but a message at most.
 bool isEmpty(const Figure& figure);
 

@@ -7,7 +7,6 @@
 #include <tuple>
 #include <type_traits>
 
-#include "engine/figure/range.hpp"
 #include "engine/figure/sample.hpp"
 
 namespace extremal {
@@ -187,27 +186,6 @@ std::vector<Figure> besideEachOther(const Figure& figure) {
         panels.back().summary = figure.title + " of " + label;
     }
     return panels;
-}
-
-Figure withLogarithm(const Figure& figure, bool isLog) {
-    const auto all = figure.series();
-    const bool hasPositive = std::any_of(all.begin(), all.end(), [](const Series& s) {
-        return std::any_of(s.y.begin(), s.y.end(), [](double y) { return y > 0 && std::isfinite(y); });
-    });
-    if (figure.y.isLog == isLog || !figure.y.ticks.empty() || figure.heat() || (isLog && !hasPositive))
-        return figure;
-    Figure changed = figure;
-    changed.y.isLog = isLog;
-    changed.y.whole.reset();
-    std::vector<RangeInput> inputs;
-    for (const Series& s : changed.series()) {
-        const auto marks = changed.all<FailureMark>();
-        const bool hasFailed = std::any_of(marks.begin(), marks.end(),
-                                           [&](const FailureMark& mark) { return mark.label == s.label; });
-        inputs.push_back({s.y, hasFailed});
-    }
-    changed.y.range = fitRange(inputs, isLog);
-    return changed;
 }
 
 Figure densityOf(const Figure& figure, int cells) {

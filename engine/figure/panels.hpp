@@ -31,10 +31,6 @@ Figure withinTimes(const Figure& figure, double from, double to);
 /// as summary, all with the ranges of the whole; the figure itself where there are fewer than two schemes.
 std::vector<Figure> besideEachOther(const Figure& figure);
 
-/// The same with a logarithmic or a linear axis y, its range fitted to what is there; the figure itself where
-/// nothing is positive, and where y has named places or a field is shown.
-Figure withLogarithm(const Figure& figure, bool isLog);
-
 /// Where the curves of a portrait stay, in place of the curves: a map of the share of the time that they
 /// spend in each of `cells` x `cells` equal cells of the plot, its scale in powers of ten. Between samples a
 /// curve is straight and goes at an even pace; dots count alike. Not a number where no curve comes.

@@ -100,7 +100,14 @@ struct FieldSampling {
     /// empty.
     using Resampling = std::function<std::vector<double>(const std::vector<double>& sample)>;
     std::function<Resampling(int rows)> resampling;
-    std::size_t further = 0;  ///< values of a sample behind those of the places: for the drawing alone
+    /// Values of a sample behind those of the places: for the drawing alone, and for `initial`.
+    std::size_t further = 0;
+    std::vector<std::array<double, 2>> furtherNodes = {};  ///< of u, which these begin with; may be empty
+    /// Whether u stays as it is at a node of the first component, or at one of `furtherNodes`. Empty:
+    /// nowhere.
+    std::function<bool(std::size_t node)> isHeld;
+    /// The initial data of a scene that starts with a sample; empty where it lacks a part of the state.
+    std::function<Value(std::span<const double> values)> initial;
     std::size_t size() const { return places() * components.size() + further; }
     /// The nodes move: x is where they are before any state is known, and a sample ends with their places
     /// (`further`).

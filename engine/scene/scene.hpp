@@ -96,6 +96,14 @@ struct EventSpec {
     bool operator==(const EventSpec&) const = default;
 };
 
+/// How the window shows the scene when it is opened, besides its views.
+struct Shown {
+    std::optional<Number> time;    ///< of the cursor and of the stage; empty: the scene plays
+    std::optional<Number> pinned;  ///< of the second cursor, from which differences are taken
+    std::optional<PageLayout> layout;
+    bool operator==(const Shown&) const = default;
+};
+
 struct Scene {
     std::string title, source, lesson, notes;
     Settings model;
@@ -109,6 +117,7 @@ struct Scene {
     std::optional<Number> every;  ///< output.every
     bool isDense = false;         ///< output.dense
     std::vector<View> views;
+    Shown shown;
     double maxSteps = 1e11;  ///< limits.steps
 
     // Compiled once.

@@ -12,7 +12,7 @@ ViewAxes axesOf(const View& view, const System& system) {
     const ViewEntry* entry = findView(view.id);
     if (!entry) return {};
     const Scales& scales = entry->scales;
-    ViewAxes axes{scales.exist, scales.isXLog, scales.isYLog, ""};
+    ViewAxes axes{scales.exist, scales.isXLog, view.isLog.value_or(scales.isYLog), ""};
     const bool isTime = scales.across == Across::time || (scales.across == Across::column && entry->xColumn &&
                                                           entry->xColumn(view, system) == "t");
     if (isTime) axes.variable = system.independent;

@@ -36,6 +36,23 @@ struct ViewStarts {
     bool operator==(const ViewStarts&) const = default;
 };
 
+/// The size of a view's card in the window, in pixels of 96 to the inch; 0: what the window has room for. The
+/// cards of a row share its width in the ratio of theirs.
+struct CardSize {
+    static constexpr int least = 110, most = 4000;
+    int width = 0, height = 0;
+    bool operator==(const CardSize&) const = default;
+};
+
+/// How the cards of the window share its room.
+enum class PageLayout {
+    automatic,  ///< as many columns as the window has room for
+    oneColumn,
+    twoColumns,
+    threeColumns,
+    plotsOnly,  ///< as automatic, without the stage
+};
+
 struct View {
     std::string id;                   ///< "energy", "phase", ...
     std::string x, y;                 ///< columns of a phase portrait or trajectory; empty: default
@@ -43,6 +60,8 @@ struct View {
     std::string scheme = {};          ///< label, for pictures of one scheme; empty: of each
     std::optional<Number> node = {};  ///< of a shape function; empty: the one in the middle
     std::optional<ViewRange> xRange = {}, yRange = {};
+    std::optional<bool> isLog = {};  ///< the axis y; empty: as the view has it
+    CardSize size = {};
     ViewCurve curve = {};
     ViewStarts starts = {};
     Settings keys = {};  ///< of views with keys of their own (CatalogItem::parameters); type empty

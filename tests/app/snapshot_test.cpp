@@ -67,6 +67,18 @@ private slots:
                 0.06);  // the nearest row: half the first scheme's step
     }
 
+    void theTimeOfTheSceneIsThatOfItsPicture() {
+        const auto pictureOf = [&](const QStringList& more) {
+            const Answer a = snapshot(
+                QStringList{"preset:kepler", "--size", "500x400", "--force", "--out", path("t.png")} + more);
+            return a.code == 0 ? tests::contentOf(path("t.png")) : QByteArray();
+        };
+        const QByteArray asked = pictureOf({"--time", "7"}), shown = pictureOf({"--set", "/show/time=7"});
+        QVERIFY(!asked.isEmpty() && asked == shown);
+        QVERIFY(pictureOf({}) != shown);
+        QCOMPARE(pictureOf({"--set", "/show/time=3", "--time", "7"}), asked);
+    }
+
     void compareTellsEqualFromDifferent() {
         const QStringList common = {"preset:kepler", "--view", "stage", "--size", "400x300"};
         snapshot(common + QStringList{"--out", path("base.png")});

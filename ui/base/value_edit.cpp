@@ -148,6 +148,23 @@ bool ValueEdit::eventFilter(QObject* watched, QEvent* event) {
     return QWidget::eventFilter(watched, event);
 }
 
+namespace {
+
+constexpr int mostShown = 100;  // values that can be edited as a text
+
+int valuesIn(const Value& value) {
+    int count = 0;
+    if (value.isArray())
+        for (const Value& each : value.asArray()) count += valuesIn(each);
+    else if (value.isObject())
+        for (const auto& [key, member] : value.asObject()) count += valuesIn(member);
+    else
+        count = 1;
+    return count;
+}
+
+}  // namespace
+
 void ValueEdit::show(const Value& value) {
     const QSignalBlocker b1(check_), b2(spin_), b3(choice_);
     if (check_) check_->setChecked(value.isBool() && value.asBool());
@@ -157,7 +174,11 @@ void ValueEdit::show(const Value& value) {
         spin_->setValue(spin_->minimum());
     if (choice_) choice_->setCurrentText(fieldText(value));
     if (!text_) return;
-    const QString text = info_.type == FieldType::constants     ? constantsText(value)
+    // The state of a field has more values than a line holds, and it would cut them.
+    const int count = valuesIn(value);
+    text_->setReadOnly(count > mostShown);
+    const QString text = count > mostShown                      ? tr("%n values", nullptr, count)
+                         : info_.type == FieldType::constants   ? constantsText(value)
                          : info_.type == FieldType::formulas    ? formulasText(value)
                          : info_.type == FieldType::names       ? formulasText(value)
                          : info_.type == FieldType::definitions ? definitionsText(value)

@@ -16,7 +16,6 @@ constexpr int gap = 10, stageHeight = 225, stageHeightAlone = 240, leastPlot = 1
 constexpr int leastSquare = 210, largestSquare = 360;
 constexpr int besideOthers = 60;    // what a square may take of the width of others
 constexpr int leastJoined = 230;    // the width of a card that joins a full row
-constexpr int leastByHand = 110;    // of a height or a width
 constexpr double stageShare = 1.4;  // of the width, where a plot has 1
 
 }  // namespace
@@ -208,11 +207,24 @@ CardLayout::Own CardLayout::ownOf(std::size_t card) const {
     return own == own_.end() ? Own{} : own->second;
 }
 
-CardLayout::Own& CardLayout::keptOf(std::size_t card) {
-    QWidget* const widget = cards_[card].item->widget();
-    if (!own_.contains(widget))
-        connect(widget, &QObject::destroyed, this, [this, widget] { own_.erase(widget); });
-    return own_[widget];
+CardLayout::Own& CardLayout::keptOf(const QWidget* card) {
+    if (!own_.contains(card)) connect(card, &QObject::destroyed, this, [this, card] { own_.erase(card); });
+    return own_[card];
+}
+
+void CardLayout::setSize(const QWidget* card, CardSize size) {
+    keptOf(card) = {size.height, static_cast<double>(size.width)};
+    invalidate();
+}
+
+CardSize CardLayout::sizeOf(const QWidget* card) const {
+    const auto own = own_.find(card);
+    if (own == own_.end()) return {};
+    const auto kept = [](double pixels) {
+        return pixels > 0 ? std::clamp(static_cast<int>(std::lround(pixels)), CardSize::least, CardSize::most)
+                          : 0;
+    };
+    return {kept(own->second.share), kept(own->second.height)};
 }
 
 std::pair<std::size_t, std::size_t> CardLayout::rowOf(std::size_t card) const {
@@ -225,20 +237,22 @@ std::pair<std::size_t, std::size_t> CardLayout::rowOf(std::size_t card) const {
 
 void CardLayout::setRowHeight(std::size_t card, int height) {
     const auto [from, to] = rowOf(card);
-    for (std::size_t i = from; i < to; ++i) keptOf(i).height = std::max(leastByHand, height);
+    for (std::size_t i = from; i < to; ++i)
+        keptOf(cards_[i].item->widget()).height = std::clamp(height, CardSize::least, CardSize::most);
     invalidate();
 }
 
 /// What a card gains its neighbour loses; the others of the row keep their widths.
 void CardLayout::setRightEdge(std::size_t card, int x) {
     const auto [from, to] = rowOf(card);
-    for (std::size_t i = from; i < to; ++i) keptOf(i).share = cards_[i].item->geometry().width();
+    for (std::size_t i = from; i < to; ++i)
+        keptOf(cards_[i].item->widget()).share = cards_[i].item->geometry().width();
     const QRect own = cards_[card].item->geometry(), next = cards_[card + 1].item->geometry();
     const int both = own.width() + next.width();
-    const int width =
-        std::clamp(x - own.left(), std::min(leastByHand, both / 2), std::max(both - leastByHand, both / 2));
-    keptOf(card).share = width;
-    keptOf(card + 1).share = both - width;
+    const int width = std::clamp(x - own.left(), std::min(CardSize::least, both / 2),
+                                 std::max(both - CardSize::least, both / 2));
+    keptOf(cards_[card].item->widget()).share = width;
+    keptOf(cards_[card + 1].item->widget()).share = both - width;
     invalidate();
 }
 

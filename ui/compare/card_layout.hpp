@@ -16,6 +16,8 @@
 #include <map>
 #include <vector>
 
+#include "engine/view/view.hpp"
+
 namespace extremal {
 
 class CardHandle;
@@ -37,6 +39,9 @@ public:
     /// Makes the row of a card higher by so many pixels.
     void grow(const QWidget* card, int by);
     void forgetSizes();
+    /// The size of a card as if a hand had given it, and the one that a hand gave.
+    void setSize(const QWidget* card, CardSize size);
+    CardSize sizeOf(const QWidget* card) const;
 
     void addItem(QLayoutItem* item) override;
     int count() const override { return static_cast<int>(cards_.size()); }
@@ -73,7 +78,7 @@ private:
         double share = 0;  ///< of the width of its row
     };
     Own ownOf(std::size_t card) const;
-    Own& keptOf(std::size_t card);
+    Own& keptOf(const QWidget* card);
     std::pair<std::size_t, std::size_t> rowOf(std::size_t card) const;  ///< from, to; as it is placed
     void setRowHeight(std::size_t card, int height);
     void setRightEdge(std::size_t card, int x);

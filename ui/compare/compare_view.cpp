@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/compare/compare_view.hpp"
 
+#include <QEvent>
 #include <QMenu>
 #include <QPointer>
 #include <QScrollArea>
 #include <QTimer>
 
 #include <algorithm>
-#include <map>
 
 #include "engine/figure/figure.hpp"
 #include "engine/figure/panels.hpp"
@@ -74,7 +74,9 @@ CompareView::~CompareView() = default;
 void CompareView::connectState() {
     connect(&workspace_, &Workspace::opened, this, [this] {  // another scene has no zoom yet
         arranged_.clear();
-        cardLayout_->forgetSizes();
+        forgetSizes();
+        stageSize_ = {};
+        group_->setPinned({});
         for (auto& s : slots_) discard(std::move(s));
         slots_.clear();
         maximized_ = nullptr;
@@ -158,6 +160,7 @@ void CompareView::rebuild() {
         std::erase_if(arranged_, [&](const auto& c) { return c.first == slot->card; });
         discard(std::move(slot));
     }
+    takeSizes();
     if (!isSameSet) arrange();
     refresh();
 }
@@ -269,8 +272,10 @@ void CompareView::showStarts() {
 /// may replace it.
 void CompareView::addSceneActions(QMenu& menu, Slot& slot) {
     QAction* all = menu.addAction(tr("Show all data"), this, [&slot] { slot.plot->showAll(); });
-    QAction* keep = menu.addAction(tr("Store this range in the scene"), this,
-                                   [this, &slot] { keepPart(workspace_, slot.view, *slot.plot); });
+    QAction* keep = menu.addAction(tr("Store this range in the scene"), this, [this, &slot] {
+        workspace_.edit(editsForPlot(workspace_.scene(), slot.view, withPart(slot.view, *slot.plot)),
+                        tr("Store the range of a plot"));
+    });
     QAction* forget = menu.addAction(tr("Remove the range from the scene"), this, [this, &slot] {
         View after = slot.view;
         after.xRange = after.yRange = {};
@@ -433,7 +438,7 @@ void CompareView::take(FigureSet made) {
         addSweep(view, made.figures[i]);
         s.card->setTitle(QString::fromStdString(made.figures[i].title));
         s.card->setSubtitle(QString::fromStdString(made.figures[i].subtitle));
-        s.whole = asChosen(s, std::move(made.figures[i]));
+        s.whole = std::move(made.figures[i]);
         s.plot->setFigure(inTimes(*s.whole));
         if (!isPortrait(*s.whole)) s.whole.reset();
         ++figuresMade_;
@@ -450,16 +455,6 @@ void CompareView::take(FigureSet made) {
     showWanted();
     QTimer::singleShot(0, this, &CompareView::alignMargins);
     emit figuresChanged();
-}
-
-/// Plots below each other share their left edge: the widest margin of those that begin at the same place.
-void CompareView::alignMargins() {
-    std::map<int, int> widest;
-    for (const auto& s : slots_) {
-        int& margin = widest[s->card->x()];
-        margin = std::max(margin, s->plot->leftMargin());
-    }
-    for (const auto& s : slots_) s->plot->setLeftMargin(std::min(widest[s->card->x()], 90));
 }
 
 void CompareView::pointAt(const QString& view) {

@@ -28,6 +28,7 @@ class BackgroundSweep;
 class BodyDragging;
 class Card;
 class CasePreview;
+class FieldPoking;
 class MechanismSketch;
 class Playback;
 class PlotGroup;
@@ -36,15 +37,6 @@ class RunControl;
 class StageWidget;
 struct Theme;
 class Workspace;
-
-/// How the cards of the page share its room.
-enum class PageLayout {
-    automatic,  ///< as many columns as the window has room for
-    oneColumn,
-    twoColumns,
-    threeColumns,
-    plotsOnly,  ///< as automatic, without the stage
-};
 
 class CompareView : public QWidget {
     Q_OBJECT
@@ -58,6 +50,7 @@ public:
     void toggleSideBySide();  ///< of the schemes on the stage
     void togglePotential();   ///< behind the motion on the stage
     void changeTrails();      ///< to longer ones, and back to short ones
+    void togglePoking();      ///< whether clicks on the stage poke the field
     /// Brings the card of a view into sight and marks it; that of no view ("") marks none.
     void pointAt(const QString& view);
     /// Where "speed against accuracy" has its lines from.
@@ -73,6 +66,12 @@ public:
     /// Makes the row that has the focus, else that of the stage, higher by so many pixels.
     void growRow(int by);
     void forgetSizes();  ///< of rows and cards, given by hand
+    /// The second cursor of the plots.
+    void setPinned(std::optional<double> t);
+    std::optional<double> pinned() const;
+    /// The views of the scene with what is seen of them: the parts of plots to which the user has zoomed, and
+    /// the sizes of cards.
+    std::vector<View> seenViews() const;
     /// The stage and one plot alone: the one that was pointed at last, else the current one.
     void setPresented(bool isPresented);
     /// The plot so many places further has the focus, and is presented.
@@ -116,7 +115,7 @@ private:
         PlotWidget* plot;
         std::shared_ptr<const Comparison> shown = {};  ///< what the plot shows the view of
         View shownView = {};
-        std::optional<bool> isLog = {};    ///< the user's choice for y
+        CardSize size = {};                ///< in the scene
         std::optional<Figure> whole = {};  ///< of a portrait that shows a part of the time
     };
     void makeStage();
@@ -124,10 +123,10 @@ private:
     void rebuild();  ///< another set of views
     void discard(std::unique_ptr<Slot> slot);
     Slot& makeSlot(const View& view);
+    void takeSizes();  ///< of the scene, where it has others than before
     void makeMaximizable(Card& card);
     void addSceneActions(QMenu& menu, Slot& slot);
     void addPlaceActions(QMenu& menu, Slot& slot);
-    Figure asChosen(const Slot& slot, Figure figure) const;
     /// The part of the window of time, of a portrait; else the figure itself.
     Figure inTimes(const Figure& whole) const;
     void showTimes(std::optional<PlotRange> range);
@@ -144,6 +143,7 @@ private:
     void connectDrawing();          ///< of initial profiles, on the stage
     void connectPreview();          ///< of cases of maps, on the stage
     void connectBodies();           ///< that are dragged on the stage
+    void connectPoking();           ///< of fields, on the stage
     void connectSketch();           ///< of a mechanism that is drawn by hand
     void tellOfHand();              ///< what cannot be dragged, in the tooltip of the stage
     /// What is shown: the results, or a preview of others.
@@ -172,12 +172,14 @@ private:
     StageWidget* stage_;
     CasePreview* preview_;  ///< of a case of a map, on the stage
     BodyDragging* bodies_;
+    FieldPoking* poking_;
     MechanismSketch* sketch_;
     std::shared_ptr<const Comparison> staged_;  ///< what the stage shows
     std::vector<std::unique_ptr<Slot>> slots_;
     std::shared_ptr<const System> system_;  ///< of the results
     int columns_ = 0, nextNumber_ = 0;
     bool isPresented_ = false;
+    CardSize stageSize_ = {};         ///< in the scene
     std::optional<PlotRange> times_;  ///< the window of time to which the user has zoomed
     int presentedSlot_ = 0;           ///< the number of the slot whose plot is presented
     bool hasStage_ = true;            ///< the model of the results has something to draw there

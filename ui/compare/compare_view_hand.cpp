@@ -2,7 +2,6 @@
 /// What the hand does on the page: bodies are dragged and the plots follow, initial profiles are drawn, and
 /// rows have the sizes that it gave them.
 #include <QAction>
-#include <QApplication>
 #include <QMenu>
 
 #include <algorithm>
@@ -13,6 +12,8 @@
 #include "ui/base/card.hpp"
 #include "ui/compare/body_dragging.hpp"
 #include "ui/compare/compare_view.hpp"
+#include "ui/compare/field_poking.hpp"
+#include "ui/plots/plot_widget.hpp"
 #include "ui/sketch/mechanism_sketch.hpp"
 #include "ui/stage/stage_widget.hpp"
 #include "ui/workspace/playback.hpp"
@@ -55,6 +56,31 @@ void CompareView::connectBodies() {
         stageCard_->setSubtitle(isPreviewing() ? tr("a short run from here") : QString());
         if (run_.results()) refresh();
     });
+}
+
+void CompareView::connectPoking() {
+    poking_ = new FieldPoking(workspace_, run_, playback_, *stage_, this);
+    connect(poking_, &FieldPoking::refused, this, &CompareView::startRefused);
+    QAction* const pokes = stageCard_->menu()->addAction(tr("Poke the field (K)"));
+    pokes->setCheckable(true);
+    pokes->setToolTip(
+        tr("A click on the stage adds a pulse, and the scene starts from there; so does a click "
+           "with Shift at any time, and Enter in the middle"));
+    connect(pokes, &QAction::toggled, poking_, &FieldPoking::setOn);
+    connect(poking_, &FieldPoking::onChanged, this, [this, pokes](bool isOn) {
+        pokes->setChecked(isOn);
+        stageCard_->setSubtitle(isOn ? tr("a click pokes the field") : QString());
+    });
+    connect(stageCard_->menu(), &QMenu::aboutToShow, this, [this, pokes] {
+        pokes->setVisible(workspace_.hasScene() && canBePoked(*workspace_.resolved()->system));
+    });
+}
+
+void CompareView::togglePoking() {
+    if (workspace_.hasScene() && canBePoked(*workspace_.resolved()->system))
+        poking_->setOn(!poking_->isOn());
+    else
+        emit startRefused(tr("no field of this scene can be poked"));
 }
 
 void CompareView::connectSketch() {
@@ -120,14 +146,5 @@ void CompareView::tellOfHand() {
             ? tr("Drag with Ctrl to draw the initial profile.")
             : tr("What this model draws is not dragged. Its start is set in the form on the left."));
 }
-
-void CompareView::growRow(int by) {
-    const QWidget* const focus = QApplication::focusWidget();
-    const auto holdsFocus = [&](const auto& s) { return s->card->isAncestorOf(focus); };
-    const auto found = std::find_if(slots_.begin(), slots_.end(), holdsFocus);
-    cardLayout_->grow(found == slots_.end() ? stageCard_ : (*found)->card, by);
-}
-
-void CompareView::forgetSizes() { cardLayout_->forgetSizes(); }
 
 }  // namespace extremal

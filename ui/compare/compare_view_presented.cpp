@@ -45,9 +45,10 @@ void CompareView::showOtherPlot(int by) {
 /// Which plots there are, their order and their scale, from the plot itself.
 void CompareView::addPlaceActions(QMenu& menu, Slot& slot) {
     QAction* const scale = menu.addAction(tr("Logarithmic scale of y"), this, [this, &slot] {
-        slot.isLog = !slot.plot->figure().y.isLog;
-        slot.shown.reset();  // its figure is made anew
-        refresh();
+        View after = slot.view;
+        after.isLog = !slot.plot->figure().y.isLog;
+        after.yRange = {};  // of the other scale
+        workspace_.edit(editsForPlot(workspace_.scene(), slot.view, after), tr("Scale of a plot"));
     });
     scale->setCheckable(true);
     menu.addSeparator();
@@ -64,7 +65,7 @@ void CompareView::addPlaceActions(QMenu& menu, Slot& slot) {
     connect(&menu, &QMenu::aboutToShow, this, [this, &slot, scale, earlier, later, hide] {
         const Figure& figure = slot.plot->figure();
         scale->setChecked(figure.y.isLog);
-        scale->setEnabled(withLogarithm(figure, !figure.y.isLog).y.isLog != figure.y.isLog);
+        scale->setEnabled(canHaveScale(figure, !figure.y.isLog));
         earlier->setEnabled(!editsForMovedPlot(workspace_.scene(), slot.view, -1).empty());
         later->setEnabled(!editsForMovedPlot(workspace_.scene(), slot.view, 1).empty());
         hide->setEnabled(slot.view.id != "work-precision");
@@ -80,10 +81,6 @@ void CompareView::showTimes(std::optional<PlotRange> range) {
     if (std::exchange(times_, range) == range) return;
     for (const auto& s : slots_)
         if (s->whole) s->plot->setFigure(inTimes(*s->whole));
-}
-
-Figure CompareView::asChosen(const Slot& slot, Figure figure) const {
-    return slot.isLog ? withLogarithm(figure, *slot.isLog) : figure;
 }
 
 }  // namespace extremal

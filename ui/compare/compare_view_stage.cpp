@@ -54,6 +54,7 @@ void CompareView::makeStage() {
     connectDrawing();
     connectPreview();
     connectBodies();
+    connectPoking();
     connectSketch();
 }
 

@@ -44,9 +44,8 @@ std::vector<const ViewEntry*> offeredPlots(const Scene& scene) {
     return offered;
 }
 
-std::vector<Edit> editsForPlot(const Scene& scene, const View& before, const View& after) {
-    Scene changed = scene;
-    changed.views.clear();
+std::vector<View> viewsForPlot(const Scene& scene, const View& before, const View& after) {
+    std::vector<View> views;
     bool isThere = false;
     for (const View& view : scene.views.empty() ? plotViews(scene) : scene.views) {
         Scene alone = scene;
@@ -54,15 +53,31 @@ std::vector<Edit> editsForPlot(const Scene& scene, const View& before, const Vie
         std::vector<View> plots = plotViews(alone);
         const auto found = std::find(plots.begin(), plots.end(), before);
         if (isThere || found == plots.end()) {
-            changed.views.push_back(view);
+            views.push_back(view);
             continue;
         }
         isThere = true;
         *found = after;
-        changed.views.insert(changed.views.end(), plots.begin(), plots.end());
+        views.insert(views.end(), plots.begin(), plots.end());
     }
-    if (!isThere) changed.views.push_back(after);  // one that is always shown
+    if (!isThere) views.push_back(after);  // one that is always shown
+    return views;
+}
+
+std::vector<Edit> editsForViews(const Scene& scene, std::vector<View> views) {
+    Scene changed = scene;
+    changed.views = std::move(views);
     return {{"/views", *toValue(changed).find("views")}};
+}
+
+std::vector<Edit> editsForSeen(const Scene& scene) {
+    const Value value = toValue(scene);
+    const Value* const shown = value.find("show");
+    return {{"/views", *value.find("views")}, {"/show", shown ? std::optional(*shown) : std::nullopt}};
+}
+
+std::vector<Edit> editsForPlot(const Scene& scene, const View& before, const View& after) {
+    return editsForViews(scene, viewsForPlot(scene, before, after));
 }
 
 namespace {
@@ -78,12 +93,6 @@ std::vector<View> singleViews(const Scene& scene) {
         all.insert(all.end(), plots.begin(), plots.end());
     }
     return all;
-}
-
-std::vector<Edit> editsForViews(const Scene& scene, std::vector<View> views) {
-    Scene changed = scene;
-    changed.views = std::move(views);
-    return {{"/views", *toValue(changed).find("views")}};
 }
 
 }  // namespace
@@ -123,13 +132,13 @@ ViewRange roundedRange(PlotRange range, bool isLog) {
     return {{rounded(range.low), {}}, {rounded(range.high), {}}};
 }
 
-void keepPart(Workspace& workspace, const View& view, const PlotWidget& plot) {
+View withPart(const View& view, const PlotWidget& plot) {
     View after = view;
     if (plot.isUserZoomed(PlotAxis::x))
         after.xRange = roundedRange(plot.visibleRange(PlotAxis::x), plot.figure().x.isLog);
     if (plot.isUserZoomed(PlotAxis::y))
         after.yRange = roundedRange(plot.visibleRange(PlotAxis::y), plot.figure().y.isLog);
-    workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Store the range of a plot"));
+    return after;
 }
 
 namespace {

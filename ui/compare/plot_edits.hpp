@@ -24,7 +24,11 @@ std::vector<const ViewEntry*> offeredPlots(const Scene& scene);
 
 /// The scene's views with one of the plots shown changed. A view that stands for several plots is split into
 /// them.
+std::vector<View> viewsForPlot(const Scene& scene, const View& before, const View& after);
 std::vector<Edit> editsForPlot(const Scene& scene, const View& before, const View& after);
+std::vector<Edit> editsForViews(const Scene& scene, std::vector<View> views);
+/// The views of a scene and how it is shown, as edits of one that differs in these.
+std::vector<Edit> editsForSeen(const Scene& scene);
 
 /// The scene's views without one of the plots shown, or with it moved so many places among them. Empty where
 /// nothing changes. A view that stands for several plots is split into them.
@@ -35,8 +39,8 @@ std::vector<Edit> editsForMovedPlot(const Scene& scene, const View& view, int by
 /// logarithmic axis.
 ViewRange roundedRange(PlotRange range, bool isLog);
 
-/// Makes the part that the plot shows now that of the scene, along the axes that the user zoomed.
-void keepPart(Workspace& workspace, const View& view, const PlotWidget& plot);
+/// The view with the part that its plot shows now, along the axes that the user zoomed.
+View withPart(const View& view, const PlotWidget& plot);
 /// Submenus for what a view lets one choose ("against": time or steps). `view` gives it as it is when chosen.
 /// A part that was kept goes, and a curve whose variable the choice changes.
 void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const std::function<View()>& view);

@@ -14,7 +14,15 @@ namespace {
 
 constexpr std::size_t mostPlaces = 201;
 
-/// The height of a field that is 1 everywhere.
+/// No more digits than a mouse can draw.
+Value::Array rounded(const std::vector<double>& values) {
+    Value::Array all;
+    for (const double v : values) all.emplace_back(std::round(v * 1e6) / 1e6);
+    return all;
+}
+
+}  // namespace
+
 double heightOfOne(const System& system) {
     const std::vector<double> ones(system.field.size(), 1.0);
     Drawing drawing;
@@ -24,15 +32,6 @@ double heightOfOne(const System& system) {
             return curtain->top.front()[1];
     return 0;
 }
-
-/// No more digits than a mouse can draw.
-Value::Array rounded(const std::vector<double>& values) {
-    Value::Array all;
-    for (const double v : values) all.emplace_back(std::round(v * 1e6) / 1e6);
-    return all;
-}
-
-}  // namespace
 
 std::optional<ProfileDrawing> ProfileDrawing::of(const Scene& scene) {
     try {

@@ -15,6 +15,9 @@
 
 namespace extremal {
 
+/// How high 1 stands on the stage, of a field over an interval; 0: its picture is no graph.
+double heightOfOne(const System& system);
+
 class ProfileDrawing {
 public:
     /// None where the scene's model is not a field over an interval.

@@ -5,8 +5,10 @@
 #include <QMenu>
 #include <QPointer>
 
+#include <algorithm>
 #include <cmath>
 
+#include "engine/run/products.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/plane_start.hpp"
 #include "engine/scene/resolve.hpp"
@@ -88,9 +90,35 @@ StartEdits editsForMove(const Scene& scene, const View& view, const System& syst
     return {{{"/initial", initial}}, {}};
 }
 
+const Frame* frameAt(const SchemeResult& result, double t) {
+    const FieldFrames* const frames = result.products.find<FieldFrames>();
+    if (!frames) return nullptr;
+    const auto apart = [t](const Frame& frame) { return std::abs(frame.t - t); };
+    const auto nearest =
+        std::min_element(frames->all.begin(), frames->all.end(),
+                         [&](const Frame& a, const Frame& b) { return apart(a) < apart(b); });
+    return nearest == frames->all.end() ? nullptr : &*nearest;
+}
+
+namespace {
+
+StartEdits editsForFieldAt(const System& system, const SchemeResult& result, double t) {
+    const Frame* const frame = frameAt(result, t);
+    if (!frame || frame->values->size() != system.field.size() ||
+        std::any_of(frame->values->begin(), frame->values->end(), [](double v) { return !std::isfinite(v); }))
+        return {{}, QObject::tr("%1 has no state there").arg(QString::fromStdString(result.spec.label))};
+    return {{{"/initial", system.field.initial(*frame->values)}}, {}};
+}
+
+}  // namespace
+
 StartEdits editsForStartAt(const System& system, const SchemeResult& result, double t) {
+    if (system.field.initial) return editsForFieldAt(system, result, t);
     if (!system.hasCoordinates())
-        return {{}, QObject::tr("the state of this model is more than coordinates and momenta")};
+        return {
+            {},
+            QObject::tr(
+                "the state of this model is more than coordinates and momenta, or the values of a field")};
     const std::vector<Quantity> columns = stateColumns(system);
     const auto times = result.trajectory["t"];
     std::size_t row = 0;

@@ -13,6 +13,7 @@
 #include "engine/model/system.hpp"
 #include "engine/run/comparison.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/trajectory/frames.hpp"
 #include "ui/workspace/document.hpp"
 
 class QMenu;
@@ -39,8 +40,11 @@ struct StartEdits {
 StartEdits editsForStart(const Scene& scene, const View& view, const System& system, QPointF place);
 StartEdits editsForMove(const Scene& scene, const View& view, const System& system, QPointF place);
 
+/// The nearest picture of a field in time; null: there is none.
+const Frame* frameAt(const SchemeResult& result, double t);
+
 /// The start of the scene moved to where a scheme is at a time: at its nearest row, where the state consists
-/// of coordinates and momenta.
+/// of coordinates and momenta, or at the nearest picture of a field.
 StartEdits editsForStartAt(const System& system, const SchemeResult& result, double t);
 
 /// Spread starts over the plot, and remove them: shown for views that take starts.

@@ -82,8 +82,10 @@ SnapshotPage pageOf(std::shared_ptr<const Comparison> comparison, const Snapshot
     page.views = chooseViews(comparison->scene, request.view);
     page.isSingle = page.views.size() == 1;
     page.isVector = isVector;
-    page.time = nearestRow(*comparison, request.time.value_or(comparison->scene.end.value));
-    if (request.time) page.cursor = page.time;
+    const auto& shown = comparison->scene.shown.time;
+    const auto time = request.time ? request.time : shown ? std::optional(shown->value) : std::nullopt;
+    page.time = nearestRow(*comparison, time.value_or(comparison->scene.end.value));
+    if (time) page.cursor = page.time;
     page.comparison = std::move(comparison);
     return page;
 }

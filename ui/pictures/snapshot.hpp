@@ -29,8 +29,9 @@ struct SnapshotRequest {
     /// A view, or "all": those of the scene but for what depends on the clock (speed against accuracy), so
     /// that two pictures of one scene are equal.
     std::string view = "all";
-    std::optional<double> time;  ///< the nearest row is shown; default: the end of the run
-    QString compareWith;         ///< a picture to compare with; empty: none
+    std::optional<double>
+        time;             ///< the nearest row is shown; default: that of the scene, or the end of the run
+    QString compareWith;  ///< a picture to compare with; empty: none
     /// Percent of the pixels that may differ by more than 8 of 255; of any tile of 16 x 16 pixels, 50 times
     /// as many.
     double tolerance = 0.1;

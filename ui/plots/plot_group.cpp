@@ -17,10 +17,7 @@ void PlotGroup::add(PlotWidget* plot) {
     });
     connect(plot, &PlotWidget::pointClicked, this, &PlotGroup::pointClicked);
     connect(plot, &PlotWidget::saveFailed, this, &PlotGroup::saveFailed);
-    connect(plot, &PlotWidget::pinRequested, this, [this](std::optional<double> t) {
-        pinned_ = t;
-        for (PlotWidget* p : plots_) p->setPinned(t);
-    });
+    connect(plot, &PlotWidget::pinRequested, this, &PlotGroup::setPinned);
     connect(plot, &PlotWidget::timeRangeChanged, this, [this, plot](std::optional<PlotRange> range) {
         timeRange_ = range;
         for (PlotWidget* p : plots_)
@@ -37,6 +34,11 @@ void PlotGroup::remove(PlotWidget* plot) {
 void PlotGroup::setCursor(std::optional<double> t) {
     cursor_ = t;
     for (PlotWidget* p : plots_) p->setCursor(t);
+}
+
+void PlotGroup::setPinned(std::optional<double> t) {
+    pinned_ = t;
+    for (PlotWidget* p : plots_) p->setPinned(t);
 }
 
 void PlotGroup::fitAll() {

@@ -20,6 +20,8 @@ public:
     void add(PlotWidget* plot);  ///< a plot that is deleted leaves by itself
     void remove(PlotWidget* plot);
     void setCursor(std::optional<double> t);
+    void setPinned(std::optional<double> t);  ///< the second cursor
+    std::optional<double> pinned() const { return pinned_; }
     void fitAll();
     void forget() { timeRange_.reset(); }  ///< what new plots would take over
     const QList<PlotWidget*>& plots() const { return plots_; }

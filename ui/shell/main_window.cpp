@@ -110,7 +110,10 @@ void MainWindow::connectState() {
         showStatus();
         playWhenOpened();
     });
-    connect(workspace_, &Workspace::opened, this, [this] { isToPlay_ = playsWhenOpened_; });
+    connect(workspace_, &Workspace::opened, this, [this] {
+        isToPlay_ = playsWhenOpened_;
+        shown_.reset();
+    });
 }
 
 /// The stage moves as soon as there is something to move; not where the desktop asks for little motion.
@@ -222,6 +225,7 @@ void MainWindow::showScene() {
     setWindowModified(workspace_->isDirty());
     playback_->setRange(timeSpan(scene).first, timeSpan(scene).last);
     timeline_->setUnit(QString::fromStdString(workspace_->resolved()->system->timeUnit));
+    takeShown();
     QString notes = QString::fromStdString("# " + scene.title + "\n\n");
     if (!scene.lesson.empty()) notes += "*" + QString::fromStdString(scene.lesson) + "*\n\n";
     notes += QString::fromStdString(scene.notes);

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/scene/scene.hpp"
 #include "ui/base/theme.hpp"
 
 class QLabel;
@@ -132,6 +133,9 @@ private:
     void addLessonActions();
     void startLesson();
     void playWhenOpened();
+    void takeShown();
+    void storeSeen();
+    void forgetSeen();
     void startFromCursor();
     void shareWidth();
     void toggleWideDiscretizer();
@@ -238,6 +242,8 @@ private:
     QPointer<QWidget> focusBefore_;                    ///< what the start page has taken the focus from
     bool wasPlaying_ = false;                          ///< when the start page hid the scene
     bool playsWhenOpened_ = false, isToPlay_ = false;  ///< an opened scene, as soon as it has results
+    std::optional<Shown> shown_;                       ///< by the scene; empty: it has just been opened
+    PageLayout ownLayout_ = PageLayout::automatic;     ///< of scenes without one
     QLabel* status_;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Everything the main window can do, each with its key.
-#include <QActionGroup>
 #include <QApplication>
 #include <QDesktopServices>
 #include <QFileDialog>
@@ -237,6 +236,9 @@ void MainWindow::addStageActions(const QString& menu) {
         [this] { compare_->changeTrails(); },
         tr("Trails on the stage that fade, ten times as long, or from the start"));
     actions_->add(
+        "poke", menu, tr("Poke the field"), {QKeySequence(Qt::Key_K)}, [this] { compare_->togglePoking(); },
+        tr("Whether clicks on the stage, and Enter, add a pulse to the field and start from there"));
+    actions_->add(
         "potential", menu, tr("Potential on the stage"), {QKeySequence(Qt::Key_U)},
         [this] { compare_->togglePotential(); },
         tr("Level lines or the graph of the potential behind motions in one or two dimensions"));
@@ -300,48 +302,6 @@ void MainWindow::addViewActions() {
         resize(1600, 1000);
     });
     addPresentationActions(menu);
-}
-
-/// The layout of the Compare page and the side panels, which the next session finds as they are.
-void MainWindow::addLayoutActions(const QString& menu) {
-    actions_->addSeparator(menu);
-    auto* group = new QActionGroup(this);
-    const QStringList names{tr("Layout: automatic"), tr("Layout: one column"), tr("Layout: two columns"),
-                            tr("Layout: three columns"), tr("Layout: plots only")};
-    for (int i = 0; i < names.size(); ++i) {
-        QAction* action = actions_->add(QStringLiteral("layout%1").arg(i), menu, names[i],
-                                        {QKeySequence(Qt::ALT | (Qt::Key_1 + i))}, [this, i] {
-                                            compare_->setPageLayout(static_cast<PageLayout>(i));
-                                            if (isRemembered_) QSettings().setValue("window/layout", i);
-                                        });
-        action->setCheckable(true);
-        group->addAction(action);
-    }
-    constexpr int more = 40;  // pixels
-    actions_->add("taller", menu, tr("Row of the plot higher"),
-                  {QKeySequence(Qt::ALT | Qt::Key_Plus), QKeySequence(Qt::ALT | Qt::Key_Equal)},
-                  [this] { compare_->growRow(more); });
-    actions_->add("lower", menu, tr("Row of the plot lower"), {QKeySequence(Qt::ALT | Qt::Key_Minus)},
-                  [this] { compare_->growRow(-more); });
-    actions_->add("sizes", menu, tr("Plots in their own sizes"), {QKeySequence(Qt::ALT | Qt::Key_0)},
-                  [this] { compare_->forgetSizes(); });
-    const int last = isRemembered_ ? QSettings().value("window/layout").toInt() : 0;
-    group->actions().at(std::clamp(last, 0, static_cast<int>(names.size()) - 1))->trigger();
-    const auto addPanel = [&](const char* id, const QString& text, const QKeySequence& key, QWidget* panel) {
-        QAction* action = actions_->add(id, menu, text, {key}, [this, id, panel] {
-            panel->setVisible(panel->isHidden());
-            shareWidth();
-            if (isRemembered_) QSettings().setValue(QStringLiteral("window/%1").arg(id), !panel->isHidden());
-        });
-        action->setCheckable(true);
-        const bool isShown =
-            !isRemembered_ || QSettings().value(QStringLiteral("window/%1").arg(id), true).toBool();
-        panel->setVisible(isShown);
-        action->setChecked(isShown);
-    };
-    addPanel("scenePanel", tr("Panel of the scene"), QKeySequence(Qt::Key_F7), leftPanel_);
-    addPanel("schemesPanel", tr("Panel of the schemes"), QKeySequence(Qt::Key_F8), schemes_);
-    actions_->addSeparator(menu);
 }
 
 void MainWindow::addRunActions() {
@@ -410,7 +370,7 @@ void MainWindow::startFromCursor() {
         notices_->post({Notice::Kind::information,
                         "start",
                         tr("No motion starts there: %1.").arg(start.problem),
-                        tr("models with coordinates can be started from the cursor"),
+                        tr("models with coordinates and fields can be started from the cursor"),
                         {}});
 }
 

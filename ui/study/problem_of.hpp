@@ -11,6 +11,7 @@ inline Scene problemOf(Scene scene) {
     scene.title = scene.source = scene.lesson = scene.notes = {};
     scene.schemes.clear();
     scene.views.clear();
+    scene.shown = {};
     scene.observe.clear();
     scene.events.clear();
     return scene;

@@ -44,6 +44,7 @@ QString cellText(const Value& value, const std::string& column) {
 Scene studiedPart(Scene scene) {
     scene.title = scene.source = scene.lesson = scene.notes = {};
     scene.views.clear();
+    scene.shown = {};
     return scene;
 }
 

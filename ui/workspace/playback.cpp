@@ -21,6 +21,7 @@ void Playback::setRange(double start, double end) {
     end_ = end;
     computedEnd_ = std::clamp(computedEnd_, start_, end_);
     followsEnd_ = true;
+    stop_.reset();
     time_ = computedEnd_;
     emit rangeChanged();
     emit timeChanged(time_);
@@ -31,6 +32,7 @@ void Playback::setComputedEnd(double t) {
     if (t == computedEnd_) return;
     computedEnd_ = t;
     emit rangeChanged();
+    if (stop_ && t >= std::clamp(*stop_, start_, end_)) return setTime(*stop_);
     if (followsEnd_ && !isPlaying()) {
         time_ = t;
         emit timeChanged(time_);
@@ -38,6 +40,7 @@ void Playback::setComputedEnd(double t) {
 }
 
 void Playback::setTime(double t) {
+    stop_.reset();
     t = std::clamp(t, start_, std::max(start_, computedEnd_));
     followsEnd_ = t >= computedEnd_;
     if (t == time_) return;
@@ -45,8 +48,16 @@ void Playback::setTime(double t) {
     emit timeChanged(time_);
 }
 
+void Playback::stopAt(double t) {
+    setPlaying(false);
+    if (t <= computedEnd_) return setTime(t);
+    setTime(computedEnd_);
+    stop_ = t;
+}
+
 void Playback::setPlaying(bool plays) {
     if (plays == isPlaying()) return;
+    stop_.reset();
     if (plays) {
         if (time_ >= computedEnd_) setTime(start_);
         sinceTick_.start();

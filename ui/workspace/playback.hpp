@@ -6,6 +6,7 @@
 #include <QObject>
 #include <QTimer>
 #include <memory>
+#include <optional>
 
 #include "engine/run/comparison.hpp"
 
@@ -26,6 +27,8 @@ public:
     void setRange(double start, double end);  ///< another scene: the cursor goes to its end until it is moved
     void setComputedEnd(double t);
     void setTime(double t);
+    /// Stops at a time, as soon as it has been computed; until then a cursor that is moved stays where it is.
+    void stopAt(double t);
     void setPlaying(bool plays);
     void setSpeed(double factor);  ///< 1: the whole interval in about twelve seconds
     void stepBy(int nodes, double step) { setTime(time_ + nodes * step); }
@@ -41,6 +44,7 @@ private:
 
     double time_ = 0, start_ = 0, end_ = 1, computedEnd_ = 0, speed_ = 1;
     bool followsEnd_ = true;
+    std::optional<double> stop_;  ///< that is not computed yet
     QTimer timer_;
     QElapsedTimer sinceTick_;
 };

@@ -24,6 +24,7 @@ constexpr int debounceMs = 150, pollMs = 33;
 /// The scene as far as its results and their names depend on it.
 Scene shown(Scene scene) {
     scene.title = scene.source = scene.lesson = scene.notes = {};
+    scene.shown = {};
     return scene;
 }
 

@@ -16,6 +16,7 @@
 #include "engine/model/density/places.hpp"
 #include "engine/model/density/start.hpp"
 #include "engine/model/field/field_system.hpp"
+#include "engine/model/parts/component_values.hpp"
 #include "engine/model/parts/named_start.hpp"
 #include "engine/model/parts/refused_because.hpp"
 #include "engine/model/plane_picture.hpp"
@@ -67,6 +68,10 @@ FieldSampling densitySampling(const SharedDensity& problem) {
     if (edgePairOf(*problem)) f.components.emplace_back("curl");
     if (problem->isNodal()) {
         f.sample = [n = 2 * problem->size()](const double* x, double* values) { std::copy_n(x, n, values); };
+        f.isHeld = [problem](std::size_t i) { return problem->isFixed(i); };
+        f.initial = [names = f.components, n = problem->nodes()](std::span<const double> values) {
+            return componentValues(names, values, n);
+        };
         return f;
     }
     f.sample = [problem, pair = edgePairOf(*problem)](const double* x, double* values) {

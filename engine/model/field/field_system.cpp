@@ -9,12 +9,29 @@
 #include "engine/model/field/profile.hpp"
 #include "engine/model/field/spatial_form.hpp"
 #include "engine/model/field/trigonometric_form.hpp"
+#include "engine/model/parts/component_values.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal {
 namespace {
 
 using Shared = std::shared_ptr<const FieldProblem>;
+
+/// The values at their places, so that schemes on any mesh can start from them: a periodic field ends with the
+/// value that it begins with.
+Value initialAtPlaces(const FieldSampling& f, std::span<const double> values) {
+    const std::size_t n = f.x.size();
+    Value at = componentValues(f.components, values, n);
+    Value::Array x(f.x.begin(), f.x.end());
+    if (f.period > 0) x.emplace_back(f.x.front() + f.period);
+    Value placed{Value::Object{{"x", std::move(x)}}};
+    for (const auto& [name, own] : at.asObject()) {
+        Value::Array all = own.asArray();
+        if (f.period > 0) all.push_back(all.front());
+        placed.set(name, std::move(all));
+    }
+    return Value(Value::Object{{"values", std::move(placed)}});
+}
 
 FieldSampling samplingOf(const Shared& problem) {
     FieldSampling f;
@@ -23,6 +40,8 @@ FieldSampling samplingOf(const Shared& problem) {
     f.isGraph = true;
     f.period = problem->mesh.isPeriodic() ? problem->mesh.length() : 0;
     f.sample = [n = 2 * f.x.size()](const double* x, double* values) { std::copy_n(x, n, values); };
+    f.isHeld = [problem](std::size_t i) { return problem->isFixed(static_cast<int>(i)); };
+    f.initial = [f](std::span<const double> values) { return initialAtPlaces(f, values); };
     return f;
 }
 

@@ -9,7 +9,9 @@
 
 #include "engine/core/algebra/quiet_math.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/parts/component_values.hpp"
 #include "engine/model/typed/typed_function.hpp"
 
 namespace extremal {
@@ -60,11 +62,21 @@ std::vector<double> typedAtNodes(const Settings& initial, const char* key, const
     std::vector<double> values(problem.mesh.nodes.size(), 0);
     const Value* const given = initial.find(key);
     if (!given) return values;
-    const std::string pointer = std::string("/") + key, text = given->isString() ? given->asString()
-                                                               : given->isNumber()
-                                                                   ? formatNumber(given->asNumber())
-                                                                   : "";
-    if (text.empty()) throw InvalidScene(pointer, "must be an expression in x and y");
+    const std::string pointer = std::string("/") + key;
+    if (given->isArray()) {
+        const Value::Array& all = given->asArray();
+        if (all.size() != values.size())
+            throw InvalidScene(pointer, "must have " + std::to_string(values.size()) +
+                                            " numbers, one per node, got " + std::to_string(all.size()));
+        for (std::size_t a = 0; a < values.size(); ++a)
+            values[a] = numberIn(all[a], pointer + "/" + std::to_string(a), {});
+        return values;
+    }
+    const std::string text = given->isString()   ? given->asString()
+                             : given->isNumber() ? formatNumber(given->asNumber())
+                                                 : "";
+    if (text.empty())
+        throw InvalidScene(pointer, "must be an expression in x and y, or a list of values at the nodes");
     const typed::TypedFunction f(text, pointer, {"x", "y"}, {});
     for (std::size_t a = 0; a < values.size(); ++a) values[a] = f(problem.mesh.nodes[a].data());
     return values;
@@ -86,7 +98,7 @@ std::vector<double> startOf(const Settings& initial, const MembraneProblem& prob
     return x;
 }
 
-/// u and u_t along the diameter y = 0, from left to right, and behind them u at all nodes for the picture.
+/// u and u_t along the diameter y = 0, from left to right, and behind them u and u_t at all nodes.
 FieldSampling samplingOf(const SharedMembrane& problem) {
     const TriangleMesh& mesh = problem->mesh;
     std::vector<std::size_t> along;
@@ -97,11 +109,16 @@ FieldSampling samplingOf(const SharedMembrane& problem) {
     FieldSampling f;
     for (const std::size_t a : along) f.x.push_back(mesh.nodes[a][0]);
     f.components = {"u", "u_t"};
-    f.further = mesh.nodes.size();
+    f.further = 2 * mesh.nodes.size();
+    f.furtherNodes = mesh.nodes;
     f.sample = [along, n = mesh.nodes.size()](const double* x, double* values) {
         for (const std::size_t a : along) *values++ = x[a];
         for (const std::size_t a : along) *values++ = x[n + a];
-        std::copy_n(x, n, values);
+        std::copy_n(x, 2 * n, values);
+    };
+    f.isHeld = [problem](std::size_t a) { return problem->isFixed(static_cast<int>(a)); };
+    f.initial = [n = mesh.nodes.size(), first = 2 * along.size()](std::span<const double> values) {
+        return componentValues({"displacement", "velocity"}, values.subspan(first), n);
     };
     return f;
 }
@@ -186,14 +203,14 @@ std::vector<FieldInfo> membraneStartFields() {
     FieldInfo amplitude = numberField("amplitude", "amplitude", "", 0.1, "Of a mode.");
     amplitude.fallback = nullptr;
     amplitude.isOptional = true;
-    return {
-        optionalJsonField("displacement", "displacement", "u at the start, an expression in x and y."),
-        optionalJsonField("velocity", "velocity", "u_t at the start, an expression in x and y; default 0."),
-        optionalJsonField(
-            "mode", "mode",
-            "[m, n] in place of them: the mode with m diameters and n circles at rest, the rim among "
-            "them, of a linear membrane with a fixed rim."),
-        amplitude};
+    return {optionalJsonField("displacement", "displacement",
+                              "u at the start, an expression in x and y, or values at the nodes."),
+            optionalJsonField("velocity", "velocity", "u_t at the start, likewise; default 0."),
+            optionalJsonField(
+                "mode", "mode",
+                "[m, n] in place of them: the mode with m diameters and n circles at rest, the rim among "
+                "them, of a linear membrane with a fixed rim."),
+            amplitude};
 }
 
 }  // namespace extremal

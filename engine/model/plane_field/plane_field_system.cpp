@@ -10,6 +10,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/parts/component_values.hpp"
 #include "engine/model/parts/named_start.hpp"
 #include "engine/model/plane_field/start.hpp"
 #include "engine/model/plane_picture.hpp"
@@ -71,6 +72,9 @@ FieldSampling samplingOf(const SharedPlane& problem) {
             f.components.push_back(problem->name(c) + suffix);
     f.isComplex = problem->isComplex();
     f.sample = [n = 2 * problem->size()](const double* x, double* values) { std::copy_n(x, n, values); };
+    f.initial = [names = f.components, n = problem->nodes()](std::span<const double> values) {
+        return componentValues(names, values, n);
+    };
     return f;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/parts/component_values.hpp"
 #include "engine/model/parts/start_remark.hpp"
 #include "engine/model/wave/basis/eigen.hpp"
 #include "engine/model/wave/collapse.hpp"
@@ -64,6 +65,10 @@ FieldSampling samplingOf(const Shared& h) {
             values[j] = psi[j].real();
             values[n + j] = psi[j].imag();
         }
+    };
+    f.initial = [names = f.components, n = f.places()](std::span<const double> values) {
+        const Value psi{Value::Object{{"values", componentValues(names, values, n)}}};
+        return Value(Value::Object{{"psi", psi}, {"normalise", false}});
     };
     return f;
 }

@@ -196,6 +196,7 @@ std::vector<std::string> knownKeys(const Value& document, const std::vector<std:
     if (first == "initial") return initialKeys(document);
     if (first == "output") return format::output;
     if (first == "limits") return format::limits;
+    if (first == "show") return format::show;
     if (first == "reference") return format::reference;
     return {};
 }

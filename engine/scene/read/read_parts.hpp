@@ -43,6 +43,10 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
 void readSensitivity(Reader& reader, const Value& document, System* system, Scene& scene);
 void readEvents(Reader& reader, const Value& document, const System* system, Scene& scene);
 void readViews(Reader& reader, const Value& document, const System* system, Scene& scene);
+/// How the window shows the scene; after its interval.
+void readShown(Reader& reader, const Value& document, Scene& scene);
+/// The size of a view's card.
+CardSize readCardSize(Reader& reader, const Value& object, const std::string& pointer);
 
 /// The keys of a view "parameter-map", with those it leaves out; `others` are keys read elsewhere.
 void readMap(Reader& reader, const Value& object, const std::string& pointer,

@@ -33,6 +33,7 @@ struct ViewReader {
     void readColumns(View& view) const;
     void readScheme(View& view) const;
     void readNode(View& view) const;
+    void readScale(View& view) const;
     void readRanges(View& view, const ViewAxes& axes) const;
     void readCurve(View& view, const ViewAxes& axes) const;
     bool applies(const View& view) const;
@@ -116,6 +117,15 @@ std::optional<ViewRange> ViewReader::rangeOf(const Value& value, const std::stri
         return ViewRange{*low, *high};
     }
     return {};
+}
+
+void ViewReader::readScale(View& view) const {
+    const Value* log = object.find("log");
+    if (!log) return;
+    const std::string at = childPointer(pointer, "log");
+    if (!findView(view.id)->scales.exist)
+        return reader.error(at, "is for plots, and " + view.id + " has no axes with numbers", "leave it out");
+    view.isLog = reader.flag(*log, at);
 }
 
 void ViewReader::readRanges(View& view, const ViewAxes& axes) const {
@@ -240,7 +250,9 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
         parts.readColumns(view);
         parts.readScheme(view);
         parts.readNode(view);
+        view.size = readCardSize(reader, object, pointer);
         if (isKnown && system && parts.applies(view)) {
+            parts.readScale(view);
             const ViewAxes axes = axesOf(view, *system);
             parts.readRanges(view, axes);
             parts.readCurve(view, axes);

@@ -80,6 +80,7 @@ void readParts(Reader& reader, const Value& document, const std::string& directo
     readObserve(reader, document, model, scene);
     readSensitivity(reader, document, system ? &*system : nullptr, scene);
     readViews(reader, document, model, scene);
+    readShown(reader, document, scene);
     readLessonSteps(reader, document, scene);
     ResolvedScene resolved = resolveParts(scene, model, places);
     checkWhole(reader, resolved, places);

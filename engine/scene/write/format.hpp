@@ -7,9 +7,10 @@
 
 namespace extremal::format {
 
-inline const std::vector<std::string> root = {
-    "$schema", "extremal",  "title",   "source",      "lesson", "notes",  "model", "initial", "time",
-    "schemes", "reference", "observe", "sensitivity", "events", "output", "views", "limits",  "steps"};
+inline const std::vector<std::string> root = {"$schema",   "extremal", "title",       "source", "lesson",
+                                              "notes",     "model",    "initial",     "time",   "schemes",
+                                              "reference", "observe",  "sensitivity", "events", "output",
+                                              "views",     "show",     "limits",      "steps"};
 inline const std::vector<std::string> lessonStep = {"text", "scheme", "view", "time", "set", "until"};
 inline const std::vector<std::string> goal = {"above", "below"};
 inline const std::vector<std::string> time = {"start", "end"};
@@ -26,8 +27,13 @@ inline const std::vector<std::string> referenceKinds = {"auto",   "exact", "none
                                                         "scheme", "file",  "companion"};
 /// Of these, those that need nothing else.
 inline const std::vector<std::string> plainReferences = {"auto", "exact", "companion", "none"};
-inline const std::vector<std::string> view = {"view", "x",     "y",     "at",     "scheme",
-                                              "node", "range", "curve", "starts", "spread"};
+inline const std::vector<std::string> view = {"view",  "x",   "y",     "at",     "scheme", "node",
+                                              "range", "log", "curve", "starts", "spread", "size"};
+inline const std::vector<std::string> cardSize = {"width", "height"};
+inline const std::vector<std::string> show = {"time", "pinned", "layout"};
+/// In the order of PageLayout.
+inline const std::vector<std::string> layouts = {"automatic", "one-column", "two-columns", "three-columns",
+                                                 "plots-only"};
 inline const std::vector<std::string> range = {"x", "y"};
 inline const std::vector<std::string> scheme = {
     "label",  "enabled",        "step",        "tolerance", "space",  "quadrature", "baseline", "scheme",

@@ -262,8 +262,12 @@ Value viewChoice() {
     range.set("y", ends);
     p.set("range",
           object(range, {}, "The part that the plot shows at first: two increasing numbers for an axis."));
+    p.set("log", typed("boolean", "Whether the axis y is logarithmic, where something is positive."));
     p.set("curve", typed("string", "An expression in the variable along x, drawn for comparison."));
     p.set("starts", arrayOf(ends));
+    Value size{Value::Object{}};
+    for (const std::string& key : format::cardSize) size.set(key, reference("number"));
+    p.set("size", object(size, {}, "Of its card in the window, in pixels; widths in the ratio of a row."));
     for (const CatalogItem& item : viewCatalog())
         for (const FieldInfo& field : item.parameters)
             if (!p.find(field.key)) p.set(field.key, property(field));
@@ -326,6 +330,11 @@ Value rootProperties() {
     p.set("events", arrayOf(anyOf({typed("string"), object(event, {"expression"})})));
     p.set("output", object(output, {}));
     p.set("views", arrayOf(viewChoice()));
+    Value show{Value::Object{}};
+    show.set("time", reference("number"));
+    show.set("pinned", reference("number"));
+    show.set("layout", enumeration(format::layouts));
+    p.set("show", object(show, {}, "How the window shows the scene when it is opened."));
     p.set("limits", object(limits, {}));
     p.set("steps", arrayOf(lessonStep(), "A lesson: what a reader does next, one after the other."));
     return p;

@@ -51,16 +51,29 @@ Value viewValue(const View& view) {
     if (view.xRange) range.set("x", rangeValue(*view.xRange));
     if (view.yRange) range.set("y", rangeValue(*view.yRange));
     if (!range.asObject().empty()) value.set("range", range);
+    if (view.isLog) value.set("log", *view.isLog);
     if (!view.curve.expression.empty()) value.set("curve", view.curve.expression);
     Value::Array starts;
     for (const auto& [x, y] : view.starts.points)
         starts.push_back(Value::Array{numberValue(x), numberValue(y)});
     if (!starts.empty()) value.set("starts", starts);
     if (view.starts.spread > 0) value.set("spread", view.starts.spread);
+    Value size{Value::Object{}};
+    if (view.size.width > 0) size.set("width", view.size.width);
+    if (view.size.height > 0) size.set("height", view.size.height);
+    if (!size.asObject().empty()) value.set("size", size);
     const Value keys = settingsValue(view.keys);
     for (const auto& [key, member] : keys.asObject())
         if (key != "type") value.set(key, member);
     return value.asObject().size() == 1 ? Value(view.id) : value;
+}
+
+Value shownValue(const Shown& shown) {
+    Value value{Value::Object{}};
+    if (shown.time) value.set("time", numberValue(*shown.time));
+    if (shown.pinned) value.set("pinned", numberValue(*shown.pinned));
+    if (shown.layout) value.set("layout", format::layouts[static_cast<std::size_t>(*shown.layout)]);
+    return value;
 }
 
 Value eventValue(const EventSpec& event) {
@@ -143,6 +156,7 @@ Value toValue(const Scene& scene) {
         value.set("output",
                   Value(Value::Object{{"every", numberValue(*scene.every)}, {"dense", scene.isDense}}));
     value.set("views", listOf(scene.views, viewValue));
+    if (!(scene.shown == Shown())) value.set("show", shownValue(scene.shown));
     value.set("limits", Value(Value::Object{{"steps", scene.maxSteps}}));
     return value;
 }

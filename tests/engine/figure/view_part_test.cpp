@@ -59,6 +59,32 @@ private slots:
         QCOMPARE(axesOf({"profile", "", ""}, kepler).variable, std::string("x"));
         QVERIFY(!axesOf({"stage", "", ""}, kepler).hasScales);
     }
+    void theScaleOfYIsThatOfTheScene() {
+        const System system = handmade::pendulum();
+        const Comparison comparison = handmade::comparison();
+        const auto made = [&](const char* id, std::optional<bool> isLog) {
+            View view{id, "", ""};
+            view.isLog = isLog;
+            return makeFigure(comparison, view, &system);
+        };
+        const Figure energy = made("energy", {}), linear = made("energy", false);
+        QVERIFY(energy.y.isLog && !linear.y.isLog);
+        QVERIFY(linear.y.range->first <= 0 && energy.y.range->first > 0);
+        // Zero at the start is a gap of the logarithmic axis alone.
+        QVERIFY(energy.series()[0].hidden > 0 && linear.series()[0].hidden == 0);
+        QVERIFY(!made("phase", {}).y.isLog && made("phase", true).y.isLog);
+        QVERIFY(made("phase", true).y.range->first > 0);
+        View phase{"phase", "", ""};
+        phase.isLog = true;
+        QVERIFY(axesOf(phase, system).isYLog && !axesOf({"phase", "", ""}, system).isYLog);
+        QVERIFY(canHaveScale(linear, true) && canHaveScale(energy, false));
+        Figure below;  // nothing is positive
+        below.add({});
+        below.series()[0].x = below.series()[0].y = {-2, -1};
+        QVERIFY(!canHaveScale(below, true) && canHaveScale(below, false));
+        below.add(HeatMap());
+        QVERIFY(!canHaveScale(below, false));
+    }
     void theOtherAxisFitsWhatThePartShows() {
         const System system = handmade::pendulum();
         const Comparison comparison = handmade::comparison();

@@ -169,6 +169,21 @@ private slots:
         row("/views=[{\"view\":\"stage\",\"range\":{\"x\":[0,1]}}]", "/views/0/range", "stage has no axes",
             "leave it out");
         row("/views=[{\"view\":\"sparsity\",\"range\":{}}]", "/views/0/range", "sparsity has no axes");
+        row("/views=[{\"view\":\"energy\",\"log\":1}]", "/views/0/log", "must be true or false");
+        row("/views=[{\"view\":\"stage\",\"log\":true}]", "/views/0/log", "stage has no axes",
+            "leave it out");
+        row("/views=[{\"view\":\"phase\",\"log\":true,\"range\":{\"y\":[-1,1]}}]", "/views/0/range/y/0",
+            "must be a positive finite number", "logarithmic");
+        row("/views=[{\"view\":\"energy\",\"size\":300}]", "/views/0/size", "must be an object");
+        row("/views=[{\"view\":\"energy\",\"size\":{\"hight\":300}}]", "/views/0/size/hight", "unknown key",
+            "height");
+        row("/views=[{\"view\":\"stage\",\"size\":{\"height\":10}}]", "/views/0/size/height",
+            "must be an integer from 110 to 4000, got 10", "pixels");
+        row("/show=3", "/show", "must be an object");
+        row("/show={\"tme\":3}", "/show/tme", "unknown key \"tme\"", "time");
+        row("/show={\"time\":\"s\"}", "/show/time", "unknown name \"s\"");
+        row("/show={\"pinned\":true}", "/show/pinned", "");
+        row("/show={\"layout\":\"two-colums\"}", "/show/layout", "unknown layout", "two-columns");
         row("/views=[{\"view\":\"energy\",\"curve\":3}]", "/views/0/curve", "must be a text in quotes");
         row("/views=[{\"view\":\"energy\",\"curve\":\"sin(t\"}]", "/views/0/curve", "    sin(t\n       ^");
         row("/views=[{\"view\":\"energy\",\"curve\":\"mu*sin(s)\"}]", "/views/0/curve",
@@ -343,6 +358,37 @@ private slots:
         QVERIFY(saved.find("\"mu^3\"") != std::string::npos &&
                 saved.find("\"mu*cos(t)+pi\"") != std::string::npos);
         QVERIFY(readScene(saved).scene == first.scene);
+    }
+
+    void howTheWindowShowsASceneIsKept() {
+        const ReadScene first =
+            readScene(good, {parseOverride(R"(/views=[{"view":"stage","size":{"width":700,"height":420}},
+                       {"view":"energy","log":false,"range":{"y":[-1,1]},"size":{"height":300}},"phase"])"),
+                             parseOverride("/show/time=mu/2"), parseOverride("/show/pinned=0.25"),
+                             parseOverride("/show/layout=plots-only")});
+        QVERIFY2(first.errors.empty(), textOf(first.errors).c_str());
+        const std::vector<View>& views = first.scene.views;
+        QVERIFY((views[0].size == CardSize{700, 420} && views[1].size == CardSize{0, 300}));
+        QVERIFY(views[1].isLog == std::optional(false) && !views[2].isLog && views[2].size == CardSize());
+        QCOMPARE(first.scene.shown.time->expression, std::string("mu/2"));
+        QCOMPARE(first.scene.shown.pinned->value, 0.25);
+        QVERIFY(first.scene.shown.layout == PageLayout::plotsOnly);
+        const std::string saved = writeScene(first.scene);
+        QVERIFY(readScene(saved).scene == first.scene);
+        QCOMPARE(writeScene(readScene(saved).scene), saved);
+    }
+
+    void aCursorBesideTheIntervalIsWarnedOf() {
+        const auto warnings = [](const char* time) {
+            const ReadScene read = readScene(good, {parseOverride(std::string("/show/time=") + time)});
+            return read.errors.empty()
+                       ? std::count_if(read.warnings.begin(), read.warnings.end(),
+                                       [](const Problem& p) { return p.pointer == "/show/time"; })
+                       : -1;
+        };
+        QCOMPARE(warnings("0"), 0);
+        QCOMPARE(warnings("1e6"), 1);
+        QCOMPARE(warnings("-1"), 1);
     }
 
     void aNodeIsOneOfTheNodesInside() {

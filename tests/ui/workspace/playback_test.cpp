@@ -33,6 +33,32 @@ private slots:
         playback.setComputedEnd(6);
         QCOMPARE(playback.time(), 6.0);
     }
+    void itStopsAtATimeThatIsStillToCome() {
+        Playback playback;
+        playback.setRange(0, 10);
+        playback.stopAt(5);
+        playback.setComputedEnd(4);
+        QCOMPARE(playback.time(), 4.0);
+        playback.setComputedEnd(8);
+        QCOMPARE(playback.time(), 5.0);
+        playback.setComputedEnd(10);
+        QCOMPARE(playback.time(), 5.0);
+        playback.setPlaying(true);
+        playback.stopAt(3);
+        QVERIFY(!playback.isPlaying());
+        QCOMPARE(playback.time(), 3.0);
+        playback.stopAt(20);  // beyond the end
+        QCOMPARE(playback.time(), 10.0);
+    }
+    void aCursorThatIsMovedStays() {
+        Playback playback;
+        playback.setRange(0, 10);
+        playback.setComputedEnd(2);
+        playback.stopAt(5);
+        playback.setTime(1);
+        playback.setComputedEnd(8);
+        QCOMPARE(playback.time(), 1.0);
+    }
 };
 
 EXTREMAL_TEST(PlaybackTest)
