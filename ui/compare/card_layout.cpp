@@ -200,6 +200,7 @@ void CardLayout::setGeometry(const QRect& rect) {
         y += height + gap;
     }
     placeHandles();
+    if (placed_) placed_();
 }
 
 CardLayout::Own CardLayout::ownOf(std::size_t card) const {

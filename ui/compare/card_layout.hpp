@@ -13,7 +13,9 @@
 
 #include <QLayout>
 
+#include <functional>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "engine/view/view.hpp"
@@ -39,6 +41,8 @@ public:
     /// Makes the row of a card higher by so many pixels.
     void grow(const QWidget* card, int by);
     void forgetSizes();
+    /// Called after the cards have been placed.
+    void setPlaced(std::function<void()> placed) { placed_ = std::move(placed); }
     /// The size of a card as if a hand had given it, and the one that a hand gave.
     void setSize(const QWidget* card, CardSize size);
     CardSize sizeOf(const QWidget* card) const;
@@ -95,6 +99,7 @@ private:
     std::vector<Edge> edges_;  ///< one for each handle that is shown
     std::vector<CardHandle*> handles_;
     int columns_ = 2, sight_ = 0, sightWidth_ = 0;
+    std::function<void()> placed_;
 };
 
 }  // namespace extremal

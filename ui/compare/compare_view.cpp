@@ -62,6 +62,10 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     inside_->setProperty("ground", "window");
     cardLayout_ = new CardLayout(inside_);
     cardLayout_->setContentsMargins(0, 0, 2, 0);
+    // Another height or width of a card gives other ticks, and these other margins.
+    align_.setSingleShot(true);
+    connect(&align_, &QTimer::timeout, this, &CompareView::alignMargins);
+    cardLayout_->setPlaced([this] { align_.start(); });
     scroll->setWidget(inside_);
     scroll->installEventFilter(this);
     layout->addWidget(scroll);
@@ -343,7 +347,7 @@ void CompareView::arrange() {
     for (const auto& [card, shape] : arranged_) cardLayout_->addCard(card, shape);
     stageCard_->setVisible(isPlaced(stageCard_));
     for (const auto& s : slots_) s->card->setVisible(isPlaced(s->card));
-    QTimer::singleShot(0, this, &CompareView::alignMargins);
+    align_.start();
 }
 
 /// Before the scroll area has decided on its bar: with the sight of the size before, its rows could need the
@@ -453,7 +457,7 @@ void CompareView::take(FigureSet made) {
     arrange();
     showStarts();
     showWanted();
-    QTimer::singleShot(0, this, &CompareView::alignMargins);
+    align_.start();
     emit figuresChanged();
 }
 

@@ -3,6 +3,7 @@
 /// card. A plot keeps its zoom and its history for as long as the scene has its view.
 #pragma once
 
+#include <QTimer>
 #include <QWidget>
 
 #include <functional>
@@ -164,6 +165,7 @@ private:
     QScrollArea* scroll_;
     QWidget* inside_;
     CardLayout* cardLayout_;
+    QTimer align_;  ///< the margins, when the events are done
     PageLayout pageLayout_ = PageLayout::automatic;
     std::vector<std::pair<Card*, CardShape>> arranged_;
     Card *stageCard_, *maximized_ = nullptr;

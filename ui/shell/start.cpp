@@ -57,7 +57,7 @@ int takePicture(QApplication& application, const QString& file, const std::strin
     } else {
         QObject::connect(&window.runControl(), &RunControl::finished, &window, [&] {
             Playback& p = window.playback();
-            p.setTime(p.start() + 0.62 * (p.end() - p.start()));
+            if (!window.workspace().scene().shown.time) p.setTime(p.start() + 0.62 * (p.end() - p.start()));
             grab();
         });
         QTimer::singleShot(60000, &window, grab);
