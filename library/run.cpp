@@ -162,7 +162,10 @@ Motions runMany(const Scene& scene, std::span<const double> starts, std::string_
     Motions result;
     for (const Quantity& column : stateColumns(system)) result.columns.push_back(column.name);
     const std::size_t width = result.columns.size();
-    if (width == 0 || starts.size() % width != 0)
+    if (width == 0)
+        throw InvalidScene("/starts", "the state of " + system.id + " is a field, which has no columns",
+                           "models with coordinates, and rigid bodies");
+    if (starts.size() % width != 0)
         throw InvalidScene("/starts",
                            "have " + std::to_string(starts.size()) + " numbers, which are no states of " +
                                std::to_string(width),

@@ -268,7 +268,8 @@ private:
             QVERIFY(outside_.isValid());
             QFile file(outside_.filePath("o.csv"));
             QVERIFY(file.open(QIODevice::WriteOnly));
-            file.write("t,q.theta,p.theta\n0,1,0\n2,0.5,-0.5\n");
+            // The motion itself, so that searches for an error end.
+            file.write("t,q.theta,p.theta\n0,1,0\n2,0.9207938271559717,1.1283018575016748\n");
             const QByteArray reference = "\"reference\": {\"type\": \"file\", \"path\": \"" +
                                          outside_.filePath("o.csv").toUtf8() + "\"}, ";
             write("s.json", QByteArray(sceneText).replace("\"title\"", reference + "\"title\""));

@@ -147,6 +147,8 @@ private slots:
         QCOMPARE(stopped.states.size(), starts.size());
         QVERIFY_EXCEPTION_THROWN((void)api::runMany(scene, starts, "no such"), InvalidScene);
         QVERIFY_EXCEPTION_THROWN((void)api::runMany(scene, std::span(starts).first(7)), InvalidScene);
+        QVERIFY_EXCEPTION_THROWN((void)api::runMany(api::Scene::load("preset:membrane"), starts),
+                                 InvalidScene);
     }
 
     void figuresAreDataAndPictures() {

@@ -5,7 +5,9 @@
 #include <QMouseEvent>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "ui/compare/profile_drawing.hpp"
@@ -127,13 +129,8 @@ void FieldPoking::pokeAt(QPointF at) {
         if (const double unit = isGraph ? heightOfOne(*poked) : 0; unit > 0) place->u = r[1] / unit;
     }
     if (!place) return emit refused(tr("the field is seen from the side: turn it first"));
-    const int selected = workspace_.selectedScheme();
-    const SchemeResult* from = results->schemes.front().get();
-    for (const auto& s : results->schemes)
-        if (selected >= 0 &&
-            s->spec.label == workspace_.scene().schemes[static_cast<std::size_t>(selected)].label)
-            from = s.get();
-    const StartEdits start = editsForPoke(*poked, *from, playback_.time(), *place);
+    const StartEdits start =
+        editsForPoke(*poked, resultToStartFrom(workspace_, *results), playback_.time(), *place);
     if (!start.problem.isEmpty()) return emit refused(start.problem);
     const bool wasPlaying = playback_.isPlaying();
     playback_.setPlaying(false);

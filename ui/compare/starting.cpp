@@ -90,6 +90,15 @@ StartEdits editsForMove(const Scene& scene, const View& view, const System& syst
     return {{{"/initial", initial}}, {}};
 }
 
+const SchemeResult& resultToStartFrom(const Workspace& workspace, const Comparison& results) {
+    const int selected = workspace.selectedScheme();
+    for (const auto& result : results.schemes)
+        if (selected >= 0 &&
+            result->spec.label == workspace.scene().schemes[static_cast<std::size_t>(selected)].label)
+            return *result;
+    return *results.schemes.front();
+}
+
 const Frame* frameAt(const SchemeResult& result, double t) {
     const FieldFrames* const frames = result.products.find<FieldFrames>();
     if (!frames) return nullptr;

@@ -40,6 +40,9 @@ struct StartEdits {
 StartEdits editsForStart(const Scene& scene, const View& view, const System& system, QPointF place);
 StartEdits editsForMove(const Scene& scene, const View& view, const System& system, QPointF place);
 
+/// Those of the selected scheme, or of the first one. The results have one at least.
+const SchemeResult& resultToStartFrom(const Workspace& workspace, const Comparison& results);
+
 /// The nearest picture of a field in time; null: there is none.
 const Frame* frameAt(const SchemeResult& result, double t);
 

@@ -357,13 +357,8 @@ void MainWindow::addRunActions() {
 void MainWindow::startFromCursor() {
     const auto results = run_->results();
     if (!results || results->schemes.empty() || !results->system) return;
-    const int selected = workspace_->selectedScheme();
-    const SchemeResult* from = results->schemes.front().get();
-    for (const auto& s : results->schemes)
-        if (selected >= 0 &&
-            s->spec.label == workspace_->scene().schemes[static_cast<std::size_t>(selected)].label)
-            from = s.get();
-    const StartEdits start = editsForStartAt(*results->system, *from, playback_->time());
+    const StartEdits start =
+        editsForStartAt(*results->system, resultToStartFrom(*workspace_, *results), playback_->time());
     if (start.problem.isEmpty())
         workspace_->edit(start.edits, tr("Start from the cursor"));
     else

@@ -46,6 +46,9 @@ std::vector<std::vector<double>> readStarts(std::istream& in, const std::string&
 }  // namespace
 
 std::vector<std::vector<double>> readStartsFile(const std::string& path, const System& system) {
+    if (stateColumns(system).empty())
+        throw InvalidScene("--starts", "the state of " + system.id + " is a field, which has no columns",
+                           "models with coordinates, and rigid bodies");
     try {
         std::istringstream in(readRegularFile(path));
         return readStarts(in, path, system);
