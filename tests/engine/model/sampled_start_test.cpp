@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/scene/bind.hpp"
 #include "engine/scene/preset.hpp"
@@ -25,7 +26,12 @@ std::vector<double> sampleOf(const System& system, const std::vector<double>& x)
 std::vector<double> moved(const System& system, std::vector<double> x) {
     const std::size_t n = x.size() / 2;
     for (std::size_t i = 0; i < n; ++i) {
-        x[i] *= 0.9;
+        // On a line not the same from left to right as from right to left; smooth around a period.
+        x[i] *=
+            0.9 +
+            (system.field.y.empty()
+                 ? 0.05 * std::sin(1 + 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n))
+                 : 0.0);
         if (!system.field.isHeld || !system.field.isHeld(i)) x[n + i] = 0.8 * x[n + i] + 0.3 * x[i];
     }
     return x;
