@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "engine/action/table.hpp"
 #include "engine/core/algebra/dense.hpp"
+#include "engine/core/memo_cache.hpp"
 #include "engine/family/lie/body_poses.hpp"
 #include "engine/family/lie/lie.hpp"
 #include "engine/family/lie/quaternion_kernel.hpp"
@@ -25,24 +27,45 @@ using Quaternion = so3::Quaternion<double>;
 Quaternion pure(const Vector& v) { return {0, v(0), v(1), v(2)}; }
 Vector vectorOf(const Quaternion& q) { return q.tail<3>(); }
 
+/// What follows from space and rule alone, which all steps share: short runs are set up in less time than a
+/// step takes.
+struct QuaternionTable {
+    Table<double> table;
+    Eigen::MatrixXd toCurve;  ///< Y = h toCurve F
+    Eigen::MatrixXd a;
+
+    explicit QuaternionTable(Table<double> of)
+        : table(std::move(of)),
+          toCurve(dense::inverse<double>(table.derivative)),
+          a(dense::product<double>(table.value, toCurve)) {}
+};
+
+std::shared_ptr<const QuaternionTable> quaternionTable(const Discretization& d) {
+    static MemoCache<std::pair<Settings, Settings>, std::shared_ptr<const QuaternionTable>> known(64);
+    return known.get({d.space, d.quadrature}, [&] {
+        return std::make_shared<const QuaternionTable>(lieTable(d.space, d.quadrature));
+    });
+}
+
 class QuaternionStep final : public Integrator {
 public:
-    QuaternionStep(const BodyMechanics<double>& body, BodyPoses poses, const Table<double>& table,
-                   double step, const SolverPolicy& policy)
-        : poses_(std::move(poses)), table_(table), h_(step) {
+    QuaternionStep(const BodyMechanics<double>& body, BodyPoses poses,
+                   std::shared_ptr<const QuaternionTable> table, double step, const SolverPolicy& policy)
+        : poses_(std::move(poses)),
+          shared_(std::move(table)),
+          table_(shared_->table),
+          toCurve_(shared_->toCurve),
+          a_(shared_->a),
+          h_(step) {
         for (int i = 0; i < 3; ++i) {
             rate_(i) = 1 / body.inertia[static_cast<std::size_t>(i)];
             stages_.halfRate[i] = rate_(i) / 2;
         }
-        stages_.stages = table.nodes();
+        stages_.stages = table_.nodes();
         stages_.maxSweeps = policy.maxIterations;
         stages_.tolerance = policy.tolerance;
-        sweep_ = quaternionSweeps(table.nodes());
-        toCurve_ = dense::inverse<double>(table.derivative);  // Y = h toCurve F
-        a_ = dense::product<double>(table.value, toCurve_);
+        sweep_ = quaternionSweeps(table_.nodes());
         place();
-        lu_ = SmallLu<double>(4 * table.nodes());
-        flat_.assign(static_cast<std::size_t>(4 * table.nodes()), 0);
     }
 
     double stepSize() const override { return h_; }
@@ -102,6 +125,10 @@ public:
     /// The stages vary by dQ_i - h sum_j a_ij dF_j = dq_0, with dF along Q and along pi.
     bool applyTangent(std::span<double> W) override {
         const int s = stages_.stages, columns = static_cast<int>(W.size() / 6);
+        if (flat_.empty()) {  // the first variation
+            lu_ = SmallLu<double>(4 * s);
+            flat_.assign(static_cast<std::size_t>(4 * s), 0);
+        }
         std::array<Quaternion, QuaternionStages::most> Q;
         std::array<Eigen::Matrix4d, QuaternionStages::most> slope;
         for (int i = 0; i < s; ++i) {
@@ -204,10 +231,11 @@ private:
     }
 
     BodyPoses poses_;
-    Table<double> table_;
+    std::shared_ptr<const QuaternionTable> shared_;
+    const Table<double>& table_;
+    const Eigen::MatrixXd &toCurve_, &a_;
     double h_;
     Vector rate_;  ///< 1 / I
-    Eigen::MatrixXd toCurve_, a_;
     QuaternionStages stages_;
     QuaternionSweeps sweep_ = nullptr;
     Pose<double> start_;
@@ -239,10 +267,10 @@ std::string quaternionProblem(const System& system) {
 std::unique_ptr<Integrator> makeQuaternionIntegrator(const System& system, const Discretization& d,
                                                      double step) {
     const SolverPolicy policy = solverPolicy(d.solver, system);
-    const Table<double> table = lieTable(d.space, d.quadrature);
     std::optional<BodyForm> form = formOf(system);
     const BodyMechanics<double> body = form ? form->body() : BodyMechanics<double>(system.body());
-    return std::make_unique<QuaternionStep>(body, BodyPoses(std::move(form)), table, step, policy);
+    return std::make_unique<QuaternionStep>(body, BodyPoses(std::move(form)), quaternionTable(d), step,
+                                            policy);
 }
 
 }  // namespace extremal
