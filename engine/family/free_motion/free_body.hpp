@@ -65,7 +65,13 @@ private:
                    -1.0 / 39916800.0,
                    1.0 / 6227020800.0,
                    -1.0 / 1307674368000.0};
+        if (valueOf(x) < 0.01) return {shortSumOf(even, x), shortSumOf(odd, x)};  // the rest is below 3e-17
         return {sumOf(even, x), sumOf(odd, x)};
+    }
+    template <class T>
+    static T shortSumOf(const std::array<double, 8>& c, const T& x) {
+        const T x2 = x * x;
+        return (c[0] + x * c[1]) + x2 * (c[2] + x * c[3] + x2 * c[4]);
     }
     /// In pairs, so that no product waits for all the others.
     template <class T>

@@ -28,24 +28,24 @@ private:
         for (std::size_t k = 0; k < stages.size(); ++k) {
             const SplittingStage& stage = stages[k];
             if (stage.isKick)
-                kick(m, stage.fraction * h);
+                kick(m, stage.fraction * h, k == 0, k + 1 == stages.size());
             else
                 body_.move(m, stage.fraction * h);
             // Before a last kick, so that its pose is that of the state.
             if (k == lastDrift) m.q = so3::normalised(m.q);
         }
     }
+    /// The last kick of a step and the first one of the next see the same pose.
     template <class T>
-    void kick(BodyMotion<T>& m, double t) {
+    void kick(BodyMotion<T>& m, double t, bool isFirst, bool isLast) {
         so3::Vector<T> torque, force;
         if constexpr (std::is_same_v<T, double>) {
-            // The last kick of a step and the first one of the next see the same pose.
-            const std::array<double, 7> here{m.q(0),        m.q(1),        m.q(2),       m.q(3),
+            const auto pose = [&] {
+                return std::array<double, 7>{m.q(0),        m.q(1),        m.q(2),       m.q(3),
                                              m.position(0), m.position(1), m.position(2)};
-            if (here != at_) {
-                forces(m, torque_, force_, true);
-                at_ = here;
-            }
+            };
+            if (!isFirst || pose() != at_) forces(m, torque_, force_, true);
+            if (isLast) at_ = pose();
             torque = torque_;
             force = force_;
         } else {
