@@ -8,7 +8,7 @@
 
 namespace extremal {
 
-ColumnArea::ColumnArea(QWidget* parent) : QScrollArea(parent) {
+ColumnArea::ColumnArea(QWidget* parent) : SteadyScrollArea(parent) {
     setWidgetResizable(true);
     setFrameShape(QFrame::NoFrame);
 }
@@ -28,7 +28,7 @@ QSize ColumnArea::minimumSizeHint() const {
 
 bool ColumnArea::eventFilter(QObject* watched, QEvent* event) {
     if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
-    return QScrollArea::eventFilter(watched, event);
+    return SteadyScrollArea::eventFilter(watched, event);
 }
 
 }  // namespace extremal

@@ -3,11 +3,11 @@
 /// enough, it scrolls sideways too.
 #pragma once
 
-#include <QScrollArea>
+#include "ui/base/steady_scroll_area.hpp"
 
 namespace extremal {
 
-class ColumnArea : public QScrollArea {
+class ColumnArea : public SteadyScrollArea {
 public:
     explicit ColumnArea(QWidget* parent = nullptr);
     /// Limits of its width, in pixels.

@@ -8,7 +8,7 @@
 
 namespace extremal {
 
-SidewaysArea::SidewaysArea(QWidget* parent) : QScrollArea(parent) {
+SidewaysArea::SidewaysArea(QWidget* parent) : SteadyScrollArea(parent) {
     setWidgetResizable(true);
     setFrameShape(QFrame::NoFrame);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
@@ -32,7 +32,7 @@ QSize SidewaysArea::minimumSizeHint() const {
 
 bool SidewaysArea::eventFilter(QObject* watched, QEvent* event) {
     if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
-    return QScrollArea::eventFilter(watched, event);
+    return SteadyScrollArea::eventFilter(watched, event);
 }
 
 void SidewaysArea::resizeEvent(QResizeEvent* event) {

@@ -3,11 +3,11 @@
 /// high.
 #pragma once
 
-#include <QScrollArea>
+#include "ui/base/steady_scroll_area.hpp"
 
 namespace extremal {
 
-class SidewaysArea : public QScrollArea {
+class SidewaysArea : public SteadyScrollArea {
 public:
     explicit SidewaysArea(QWidget* parent = nullptr);
     QSize sizeHint() const override;

@@ -16,6 +16,7 @@
 #include "engine/view/axes.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/card.hpp"
+#include "ui/base/steady_scroll_area.hpp"
 #include "ui/compare/body_dragging.hpp"
 #include "ui/compare/case_preview.hpp"
 #include "ui/compare/plot_edits.hpp"
@@ -53,7 +54,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
       group_(new PlotGroup(this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
-    auto* scroll = scroll_ = new QScrollArea;
+    auto* scroll = scroll_ = new SteadyScrollArea;
     scroll->setAccessibleName(tr("Plots"));
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);

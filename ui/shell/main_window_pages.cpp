@@ -14,6 +14,7 @@
 
 #include "ui/base/card.hpp"
 #include "ui/base/notices.hpp"
+#include "ui/base/steady_scroll_area.hpp"
 #include "ui/compare/compare_view.hpp"
 #include "ui/compare/orbit_finder.hpp"
 #include "ui/own/own_list.hpp"
@@ -45,14 +46,14 @@ namespace extremal {
 namespace {
 
 /// As high as what is in it, where there is room.
-class SceneArea : public QScrollArea {
+class SceneArea : public SteadyScrollArea {
 public:
-    QSize sizeHint() const override { return widget() ? widget()->sizeHint() : QScrollArea::sizeHint(); }
+    QSize sizeHint() const override { return widget() ? widget()->sizeHint() : SteadyScrollArea::sizeHint(); }
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override {
         if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
-        return QScrollArea::eventFilter(watched, event);
+        return SteadyScrollArea::eventFilter(watched, event);
     }
 };
 
