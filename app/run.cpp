@@ -7,6 +7,7 @@
 #include "app/study_work.hpp"
 #include "app/verbs.hpp"
 #include "app/watch_run.hpp"
+#include "engine/core/known_value.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/run/cases/many_run.hpp"
 #include "engine/run/cases/starts_file.hpp"
@@ -131,7 +132,7 @@ int runVerb(const std::string& scene, const RunVerbOptions& given, const CommonO
 namespace {
 
 struct MotionsAnswer {
-    std::string scheme, problem, remedy;
+    std::string scheme, problem, remedy, scene;
     std::vector<std::string> columns;  ///< of a state
     std::vector<std::vector<double>> starts;
     ManyMotions motions;
@@ -149,8 +150,6 @@ struct MotionsAnswer {
     }
 };
 
-Value known(double number) { return std::isfinite(number) ? Value(number) : Value(); }
-
 StudyTable motionsTable(const MotionsAnswer& answer) {
     StudyTable table{"motions", {"start"}, {}};
     for (const std::string& name : answer.columns) table.columns.push_back("start." + name);
@@ -162,10 +161,10 @@ StudyTable motionsTable(const MotionsAnswer& answer) {
         Value::Array row{static_cast<double>(i)};
         for (const double x : answer.starts[i]) row.emplace_back(x);
         row.emplace_back(motion.t);
-        for (const double x : motion.x) row.push_back(known(x));
+        for (const double x : motion.x) row.push_back(knownNumber(x));
         row.emplace_back(static_cast<double>(motion.steps));
         row.emplace_back(std::string(name(motion.outcome)));
-        row.push_back(known(motion.energyError));
+        row.push_back(knownNumber(motion.energyError));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -177,7 +176,7 @@ Value motionsValue(const MotionsAnswer& answer) {
     document.set("motions", static_cast<double>(answer.starts.size()));
     document.set("together", static_cast<double>(answer.motions.together));
     document.set("unfinished", static_cast<double>(answer.unfinished()));
-    document.set("max_energy_error", known(answer.largestError()));
+    document.set("max_energy_error", knownNumber(answer.largestError()));
     return document;
 }
 
@@ -197,6 +196,7 @@ int motionsVerb(const std::string& scene, const MotionsOptions& given, const Com
                  const System& system = *systemOf(resolved, resolved.schemes[scheme]);
                  MotionsAnswer answer;
                  answer.scheme = resolved.scene.schemes[scheme].label;
+                 answer.scene = writeScene(resolved.scene);
                  for (const Quantity& column : stateColumns(system)) answer.columns.push_back(column.name);
                  answer.starts = readStartsFile(given.starts, system);
                  answer.motions = runMany(resolved, scheme, answer.starts, {options.threads, true, {}}, stop);
@@ -204,11 +204,9 @@ int motionsVerb(const std::string& scene, const MotionsOptions& given, const Com
              },
          .document = motionsValue,
          .written =
-             [&](const MotionsAnswer& answer, const Value& document) {
-                 return AnswerFiles{"motions",
-                                    document,
-                                    writeScene(loadScene(scene, options).scene),
-                                    {{"motions.csv", csvText(motionsTable(answer))}}};
+             [](const MotionsAnswer& answer, const Value& document) {
+                 return AnswerFiles{
+                     "motions", document, answer.scene, {{"motions.csv", csvText(motionsTable(answer))}}};
              },
          .text =
              [](const MotionsAnswer& answer) {

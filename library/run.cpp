@@ -167,8 +167,8 @@ Motions runMany(const Scene& scene, std::span<const double> starts, std::string_
                            "models with coordinates, and rigid bodies");
     if (starts.size() % width != 0)
         throw InvalidScene("/starts",
-                           "have " + std::to_string(starts.size()) + " numbers, which are no states of " +
-                               std::to_string(width),
+                           "must be whole states of " + std::to_string(width) + " numbers, got " +
+                               std::to_string(starts.size()) + " numbers",
                            joinNames(result.columns));
     std::vector<std::vector<double>> all;
     for (std::size_t i = 0; i < starts.size(); i += width)

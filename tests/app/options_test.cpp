@@ -417,8 +417,8 @@ private slots:
             QCOMPARE(call.outcome(words("--set /nonsense/key=1") + callOf(verb) + needsOf(verb)).code, 2);
     }
 
-    /// A second call of the same kind is no other's work, and neither is one of another scene. (A scene in a
-    /// file of a name of its own, as `formulas` writes it, is the user's.)
+    /// A second call replaces what the first one wrote, and so does a call of another scene. (A scene in a
+    /// file of a name of its own, as `formulas` writes it, belongs to the user.)
     void ownFilesAreReplaced_data() {
         QTest::addColumn<QString>("verb");
         for (const app::VerbOptions& row : app::optionTable())

@@ -239,21 +239,20 @@ std::pair<std::size_t, std::size_t> CardLayout::rowOf(std::size_t card) const {
 void CardLayout::setRowHeight(std::size_t card, int height) {
     const auto [from, to] = rowOf(card);
     for (std::size_t i = from; i < to; ++i)
-        keptOf(cards_[i].item->widget()).height = std::clamp(height, CardSize::least, CardSize::most);
+        keptOf(i).height = std::clamp(height, CardSize::least, CardSize::most);
     invalidate();
 }
 
 /// What a card gains its neighbour loses; the others of the row keep their widths.
 void CardLayout::setRightEdge(std::size_t card, int x) {
     const auto [from, to] = rowOf(card);
-    for (std::size_t i = from; i < to; ++i)
-        keptOf(cards_[i].item->widget()).share = cards_[i].item->geometry().width();
+    for (std::size_t i = from; i < to; ++i) keptOf(i).share = cards_[i].item->geometry().width();
     const QRect own = cards_[card].item->geometry(), next = cards_[card + 1].item->geometry();
     const int both = own.width() + next.width();
     const int width = std::clamp(x - own.left(), std::min(CardSize::least, both / 2),
                                  std::max(both - CardSize::least, both / 2));
-    keptOf(cards_[card].item->widget()).share = width;
-    keptOf(cards_[card + 1].item->widget()).share = both - width;
+    keptOf(card).share = width;
+    keptOf(card + 1).share = both - width;
     invalidate();
 }
 

@@ -83,6 +83,7 @@ private:
     };
     Own ownOf(std::size_t card) const;
     Own& keptOf(const QWidget* card);
+    Own& keptOf(std::size_t card) { return keptOf(cards_[card].item->widget()); }
     std::pair<std::size_t, std::size_t> rowOf(std::size_t card) const;  ///< from, to; as it is placed
     void setRowHeight(std::size_t card, int height);
     void setRightEdge(std::size_t card, int x);

@@ -65,10 +65,9 @@ bool canBePoked(const System& system) {
 
 StartEdits editsForPoke(const System& system, const SchemeResult& result, double t, const PokedPlace& place) {
     const FieldSampling& field = system.field;
-    const Frame* const frame = frameAt(result, t);
-    if (!frame || frame->values->size() != field.size())
-        return {{}, QObject::tr("%1 has no state there").arg(QString::fromStdString(result.spec.label))};
-    std::vector<double> values = *frame->values;
+    const std::vector<double>* const sample = sampleAt(system, result, t);
+    if (!sample) return withoutState(result);
+    std::vector<double> values = *sample;
     const Displaced u = displacedOf(field);
     const bool isPlane = !field.y.empty(), isPeriodicPlane = isPlane && field.across.length > 0;
     const Side along = sideOf(field.x, field.along, isPeriodicPlane ? field.along.length : field.period);
@@ -83,7 +82,6 @@ StartEdits editsForPoke(const System& system, const SchemeResult& result, double
     double largest = 0, nearest = std::numeric_limits<double>::infinity(), there = 0;
     for (std::size_t i = 0; i < u.places.size(); ++i) {
         const double value = values[u.first + i];
-        if (!std::isfinite(value)) return {{}, QObject::tr("the field is not finite there")};
         largest = std::max(largest, std::abs(value));
         if (distance(i) < nearest) nearest = distance(i), there = value;
     }
@@ -145,7 +143,7 @@ bool FieldPoking::eventFilter(QObject* watched, QEvent* event) {
     const bool isPress = event->type() == QEvent::MouseButtonPress,
                isRelease = event->type() == QEvent::MouseButtonRelease,
                isKey = event->type() == QEvent::KeyPress && isOn_;
-    // Of other events none is meant, some of which come when the window goes.
+    // Results must not be asked for at other events: some come while the window is destroyed.
     if (watched != &stage_ || !(isPress || isRelease || isKey) || !system()) return false;
     if (isKey) {
         const int key = static_cast<QKeyEvent*>(event)->key();

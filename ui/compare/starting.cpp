@@ -99,30 +99,28 @@ const SchemeResult& resultToStartFrom(const Workspace& workspace, const Comparis
     return *results.schemes.front();
 }
 
-const Frame* frameAt(const SchemeResult& result, double t) {
+const std::vector<double>* sampleAt(const System& system, const SchemeResult& result, double t) {
     const FieldFrames* const frames = result.products.find<FieldFrames>();
-    if (!frames) return nullptr;
+    if (!frames || frames->all.empty()) return nullptr;
     const auto apart = [t](const Frame& frame) { return std::abs(frame.t - t); };
-    const auto nearest =
-        std::min_element(frames->all.begin(), frames->all.end(),
-                         [&](const Frame& a, const Frame& b) { return apart(a) < apart(b); });
-    return nearest == frames->all.end() ? nullptr : &*nearest;
+    const std::vector<double>& values =
+        *std::min_element(frames->all.begin(), frames->all.end(), [&](const Frame& a, const Frame& b) {
+             return apart(a) < apart(b);
+         })->values;
+    const bool isWhole = values.size() == system.field.size() &&
+                         std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+    return isWhole ? &values : nullptr;
 }
 
-namespace {
-
-StartEdits editsForFieldAt(const System& system, const SchemeResult& result, double t) {
-    const Frame* const frame = frameAt(result, t);
-    if (!frame || frame->values->size() != system.field.size() ||
-        std::any_of(frame->values->begin(), frame->values->end(), [](double v) { return !std::isfinite(v); }))
-        return {{}, QObject::tr("%1 has no state there").arg(QString::fromStdString(result.spec.label))};
-    return {{{"/initial", system.field.initial(*frame->values)}}, {}};
+StartEdits withoutState(const SchemeResult& result) {
+    return {{}, QObject::tr("%1 has no state there").arg(QString::fromStdString(result.spec.label))};
 }
-
-}  // namespace
 
 StartEdits editsForStartAt(const System& system, const SchemeResult& result, double t) {
-    if (system.field.initial) return editsForFieldAt(system, result, t);
+    if (system.field.initial) {
+        const std::vector<double>* const sample = sampleAt(system, result, t);
+        return sample ? StartEdits{{{"/initial", system.field.initial(*sample)}}, {}} : withoutState(result);
+    }
     if (!system.hasCoordinates())
         return {
             {},
@@ -136,8 +134,7 @@ StartEdits editsForStartAt(const System& system, const SchemeResult& result, dou
     std::vector<double> x;
     for (const Quantity& column : columns) {
         const auto values = result.trajectory[column.name];
-        if (row >= values.size() || !std::isfinite(values[row]))
-            return {{}, QObject::tr("%1 has no state there").arg(QString::fromStdString(result.spec.label))};
+        if (row >= values.size() || !std::isfinite(values[row])) return withoutState(result);
         x.push_back(values[row]);
     }
     const auto d = static_cast<std::size_t>(system.dimension());

@@ -13,7 +13,6 @@
 #include "engine/model/system.hpp"
 #include "engine/run/comparison.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/trajectory/frames.hpp"
 #include "ui/workspace/document.hpp"
 
 class QMenu;
@@ -43,11 +42,13 @@ StartEdits editsForMove(const Scene& scene, const View& view, const System& syst
 /// Those of the selected scheme, or of the first one. The results have one at least.
 const SchemeResult& resultToStartFrom(const Workspace& workspace, const Comparison& results);
 
-/// The nearest picture of a field in time; null: there is none.
-const Frame* frameAt(const SchemeResult& result, double t);
+/// The sample of a field that is nearest in time; null where the result has no finite one.
+const std::vector<double>* sampleAt(const System& system, const SchemeResult& result, double t);
+/// That a result has no state at the time that was chosen.
+StartEdits withoutState(const SchemeResult& result);
 
 /// The start of the scene moved to where a scheme is at a time: at its nearest row, where the state consists
-/// of coordinates and momenta, or at the nearest picture of a field.
+/// of coordinates and momenta, or with the nearest sample of a field.
 StartEdits editsForStartAt(const System& system, const SchemeResult& result, double t);
 
 /// Spread starts over the plot, and remove them: shown for views that take starts.

@@ -3,15 +3,16 @@
 /// in the background hold while it stays the same.
 #pragma once
 
-#include "engine/scene/scene.hpp"
+#include <utility>
+
+#include "ui/workspace/bare_scene.hpp"
 
 namespace extremal {
 
 inline Scene problemOf(Scene scene) {
-    scene.title = scene.source = scene.lesson = scene.notes = {};
+    scene = bareScene(std::move(scene));
     scene.schemes.clear();
     scene.views.clear();
-    scene.shown = {};
     scene.observe.clear();
     scene.events.clear();
     return scene;

@@ -25,6 +25,7 @@
 #include "ui/study/study_edits.hpp"
 #include "ui/study/study_form.hpp"
 #include "ui/study/wanted_error.hpp"
+#include "ui/workspace/bare_scene.hpp"
 #include "ui/workspace/wanted.hpp"
 #include "ui/workspace/workspace.hpp"
 
@@ -42,9 +43,8 @@ QString cellText(const Value& value, const std::string& column) {
 
 /// The scene as far as a study depends on it.
 Scene studiedPart(Scene scene) {
-    scene.title = scene.source = scene.lesson = scene.notes = {};
+    scene = bareScene(std::move(scene));
     scene.views.clear();
-    scene.shown = {};
     return scene;
 }
 

@@ -13,6 +13,7 @@
 #include "engine/scene/outlook/topics.hpp"
 #include "ui/base/background.hpp"
 #include "ui/base/notices.hpp"
+#include "ui/workspace/bare_scene.hpp"
 #include "ui/workspace/workspace.hpp"
 
 namespace extremal {
@@ -20,13 +21,6 @@ namespace extremal {
 namespace {
 
 constexpr int debounceMs = 150, pollMs = 33;
-
-/// The scene as far as its results and their names depend on it.
-Scene shown(Scene scene) {
-    scene.title = scene.source = scene.lesson = scene.notes = {};
-    scene.shown = {};
-    return scene;
-}
 
 /// Views that are computed besides the schemes: maps, and starts.
 bool hasFurtherViews(const Scene& scene) {
@@ -237,8 +231,8 @@ bool RunControl::isCoveredByRun(const Scene& scene) const {
 
 void RunControl::sceneChanged() {
     const Scene& scene = workspace_.scene();
-    if (lastScene_ && *lastScene_ == shown(scene)) return;
-    lastScene_ = shown(scene);
+    if (lastScene_ && *lastScene_ == bareScene(scene)) return;
+    lastScene_ = bareScene(scene);
     notices_.dismiss("offer");
     trial_.request_stop();
     if (run_) store_.keep(run_->latest());

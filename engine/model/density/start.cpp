@@ -10,6 +10,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/parts/component_values.hpp"
 #include "engine/model/typed/typed_function.hpp"
 
 namespace extremal {
@@ -95,16 +96,8 @@ void fillFrom(const Settings& initial, const std::string& key, const DensityProb
     const std::string pointer = "/" + key;
     if (!given || given->isNull()) return;
     if (given->isArray()) {
-        if (given->asArray().size() != problem.nodes())
-            throw InvalidScene(pointer, "must have " + std::to_string(problem.nodes()) +
-                                            " numbers, one per node, got " +
-                                            std::to_string(given->asArray().size()));
-        for (std::size_t i = 0; i < problem.nodes(); ++i) {
-            const Value& number = given->asArray()[i];
-            if (!number.isNumber() || !std::isfinite(number.asNumber()))
-                throw InvalidScene(pointer + "/" + std::to_string(i), "must be a finite number", "0");
-            values[i] = number.asNumber();
-        }
+        const std::vector<double> own = valuesAtNodes(*given, pointer, problem.nodes());
+        std::copy(own.begin(), own.end(), values);
         return;
     }
     if (!given->isString() && !given->isNumber())

@@ -9,7 +9,6 @@
 
 #include "engine/core/algebra/quiet_math.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/parts/component_values.hpp"
 #include "engine/model/typed/typed_function.hpp"
@@ -63,15 +62,7 @@ std::vector<double> typedAtNodes(const Settings& initial, const char* key, const
     const Value* const given = initial.find(key);
     if (!given) return values;
     const std::string pointer = std::string("/") + key;
-    if (given->isArray()) {
-        const Value::Array& all = given->asArray();
-        if (all.size() != values.size())
-            throw InvalidScene(pointer, "must have " + std::to_string(values.size()) +
-                                            " numbers, one per node, got " + std::to_string(all.size()));
-        for (std::size_t a = 0; a < values.size(); ++a)
-            values[a] = numberIn(all[a], pointer + "/" + std::to_string(a), {});
-        return values;
-    }
+    if (given->isArray()) return valuesAtNodes(*given, pointer, values.size());
     const std::string text = given->isString()   ? given->asString()
                              : given->isNumber() ? formatNumber(given->asNumber())
                                                  : "";

@@ -2,11 +2,13 @@
 /// Samples of fields as they stand in scenes.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "engine/core/problem.hpp"
 #include "engine/core/value.hpp"
 
 namespace extremal {
@@ -20,6 +22,25 @@ inline Value componentValues(const std::vector<std::string>& names, std::span<co
         all.set(names[c], Value::Array(own.begin(), own.end()));
     }
     return all;
+}
+
+/// The other way: one of these lists, at so many places. Throws InvalidScene at `pointer`.
+inline std::vector<double> valuesAtNodes(const Value& list, const std::string& pointer, std::size_t places,
+                                         const std::string& hint = {}) {
+    const Value::Array& all = list.asArray();
+    if (all.size() != places)
+        throw InvalidScene(pointer,
+                           "must have " + std::to_string(places) + " numbers, one per node, got " +
+                               std::to_string(all.size()),
+                           hint);
+    std::vector<double> values;
+    values.reserve(places);
+    for (const Value& number : all) {
+        if (!number.isNumber() || !std::isfinite(number.asNumber()))
+            throw InvalidScene(pointer + "/" + std::to_string(values.size()), "must be a finite number", "0");
+        values.push_back(number.asNumber());
+    }
+    return values;
 }
 
 }  // namespace extremal

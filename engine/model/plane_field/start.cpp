@@ -14,6 +14,7 @@
 #include "engine/core/text/known_keys.hpp"
 #include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/parts/component_values.hpp"
 #include "engine/model/plane_field/q_ball.hpp"
 #include "engine/model/typed/typed_function.hpp"
 #include "engine/model/wave/random_field.hpp"
@@ -261,17 +262,9 @@ void addFrom(const Settings& initial, const std::string& key, const PlaneFieldPr
     const std::string pointer = "/" + key;
     if (!given || given->isNull()) return;
     if (given->isArray()) {
-        if (given->asArray().size() != n)
-            throw InvalidScene(pointer,
-                               "must have " + std::to_string(n) + " numbers, one per node, got " +
-                                   std::to_string(given->asArray().size()),
-                               "the number of nodes is /model/cells times /model/cells_y, x first");
-        for (std::size_t i = 0; i < n; ++i) {
-            const Value& number = given->asArray()[i];
-            if (!number.isNumber() || !std::isfinite(number.asNumber()))
-                throw InvalidScene(pointer + "/" + std::to_string(i), "must be a finite number", "0");
-            values[i] += number.asNumber();
-        }
+        const std::vector<double> own = valuesAtNodes(
+            *given, pointer, n, "the number of nodes is /model/cells times /model/cells_y, x first");
+        for (std::size_t i = 0; i < n; ++i) values[i] += own[i];
         return;
     }
     if (!given->isString() && !given->isNumber())

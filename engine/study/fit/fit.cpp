@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/algebra/dense.hpp"
+#include "engine/core/known_value.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/scene/outlook/varied_scene.hpp"
@@ -196,8 +197,6 @@ StudyTable residualsTable(const MeasuredData& data, const FittedMotion::Values& 
     return table;
 }
 
-Value numberOrNull(double number) { return std::isfinite(number) ? Value(number) : Value(); }
-
 }  // namespace
 
 FitAnswer fit(const ResolvedScene& scene, const MeasuredData& data, const FitRequest& request,
@@ -261,10 +260,10 @@ StudyTable numbersTable(const FitAnswer& answer) {
                          each.pointer,
                          each.start,
                          each.value,
-                         numberOrNull(each.deviation),
-                         numberOrNull(each.bias)};
+                         knownNumber(each.deviation),
+                         knownNumber(each.bias)};
         for (std::size_t j = 0; j < answer.numbers.size(); ++j)
-            row.push_back(answer.correlations.empty() ? Value() : numberOrNull(answer.correlations[i][j]));
+            row.push_back(answer.correlations.empty() ? Value() : knownNumber(answer.correlations[i][j]));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -280,7 +279,7 @@ Value fitValue(const FitAnswer& answer) {
     }
     document.set("measurements", static_cast<double>(answer.measurements));
     document.set("has_deviations", answer.hasDeviations);
-    document.set("scatter", numberOrNull(answer.scatter));
+    document.set("scatter", knownNumber(answer.scatter));
     document.set("parameters", rowsValue(numbersTable(answer)));
     Value::Array directions;
     for (const SeenDirection& each : answer.directions) {
@@ -289,7 +288,7 @@ Value fitValue(const FitAnswer& answer) {
         for (std::size_t k = 0; k < answer.numbers.size(); ++k)
             parts.set(answer.numbers[k].name, each.parts[k]);
         direction.set("relative", std::move(parts));
-        direction.set("deviation", numberOrNull(each.deviation));
+        direction.set("deviation", knownNumber(each.deviation));
         directions.push_back(std::move(direction));
     }
     document.set("directions", std::move(directions));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/known_value.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/scene/single_scheme.hpp"
@@ -119,8 +120,7 @@ StudyTable tableOf(const ResolvedScene& scene, const OrbitAnswer& answer, const 
     for (const Quantity& entry : stateColumns(*scene.system)) table.columns.push_back(entry.name);
     const auto add = [&](const PeriodicOrbit& orbit, OrbitStability stability, Value::Array lead) {
         Value::Array row = std::move(lead);
-        for (const double value : {orbit.period, orbit.energy, orbit.gap})
-            row.emplace_back(std::isfinite(value) ? Value(value) : Value());
+        for (const double value : {orbit.period, orbit.energy, orbit.gap}) row.push_back(knownNumber(value));
         row.emplace_back(static_cast<double>(orbit.closes.size()) - 1);
         row.emplace_back(std::string(name(stability)));
         row.emplace_back(orbit.trace);
@@ -251,11 +251,10 @@ Value orbitValue(const OrbitAnswer& answer) {
         return document;
     }
     const PeriodicOrbit& orbit = *answer.orbit;
-    const auto known = [](double value) { return std::isfinite(value) ? Value(value) : Value(); };
     document.set("period", orbit.period);
-    document.set("period_bias", known(answer.periodBias));
-    document.set("start_bias", known(answer.startBias));
-    document.set("energy", known(orbit.energy));
+    document.set("period_bias", knownNumber(answer.periodBias));
+    document.set("start_bias", knownNumber(answer.startBias));
+    document.set("energy", knownNumber(orbit.energy));
     document.set("gap", orbit.gap);
     document.set("start", numbersValue(orbit.x));
     Value::Array multipliers;

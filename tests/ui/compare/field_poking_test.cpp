@@ -32,7 +32,7 @@ struct Window : MainWindow {
     const System& system() { return *workspace().resolved()->system; }
     /// The nearest picture to the time of the cursor.
     std::vector<double> shown() {
-        return *frameAt(*runControl().results()->schemes.front(), playback().time())->values;
+        return *sampleAt(system(), *runControl().results()->schemes.front(), playback().time());
     }
     std::vector<double> start() {
         std::vector<double> values(system().field.size());
@@ -127,7 +127,7 @@ private slots:
 
     void inThePlaneTheNearestNodesAreRaised() {
         Window window("yee");
-        QVERIFY(!canBePoked(window.system()));  // values on edges are no initial data
+        QVERIFY(!canBePoked(window.system()));  // values on edges cannot be written as initial data
         Window plane("anisotropy");
         const FieldSampling& field = plane.system().field;
         QVERIFY(canBePoked(plane.system()));
