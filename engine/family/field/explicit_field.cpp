@@ -17,17 +17,15 @@ public:
     ExplicitField(std::shared_ptr<const SpatialForm> shape, double step)
         : KickDriftKick(std::move(shape), step), mass_(form()) {
         const FieldProblem& problem = form().problem();
-        const auto kind = problem.potential.kind();
-        const bool isCubic = kind != FieldPotential::Kind::sineGordon && kind != FieldPotential::Kind::typed;
-        isStreamed_ = isCubic && form().isLumped() && form().width() == 2 && problem.elastic.isLinear() &&
+        const auto slope = problem.potential.cubicSlope();
+        isStreamed_ = slope && form().isLumped() && form().width() == 2 && problem.elastic.isLinear() &&
                       !problem.coefficient && problem.mesh.isUniform() && n() >= 3;
         if (isStreamed_) {
             setChecked();
-            const double dx = problem.mesh.length() / problem.mesh.elements(), m = problem.potential.mass();
+            const double dx = problem.mesh.length() / problem.mesh.elements();
             kernel_.boundary = problem.mesh.boundary;
             kernel_.k = problem.elastic.k / (dx * dx);
-            if (kind == FieldPotential::Kind::kleinGordon) kernel_.alpha = m * m;
-            if (kind == FieldPotential::Kind::phi4) kernel_.alpha = -1, kernel_.beta = 1;
+            kernel_.slope = *slope;
         }
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<ExplicitField>(*this); }

@@ -11,7 +11,7 @@ namespace {
 /// v+ and u' of inner nodes [from, to).
 inline void move(const double* __restrict u, const double* __restrict v, double* __restrict nextU,
                  double* __restrict nextV, std::size_t from, std::size_t to, const LeapfrogKernel* c) {
-    const double h = c->h, half = h / 2, k = c->k, alpha = c->alpha, beta = c->beta;
+    const double h = c->h, half = h / 2, k = c->k, alpha = c->slope.linear, beta = c->slope.cubic;
     for (std::size_t i = from; i < to; ++i) {
         const double a = k * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) - u[i] * (alpha + beta * u[i] * u[i]);
         nextV[i] = v[i] + half * a;
@@ -22,7 +22,7 @@ inline void move(const double* __restrict u, const double* __restrict v, double*
 /// v' of inner nodes [from, to) from v+, in place.
 inline void kick(const double* __restrict u, double* __restrict v, std::size_t from, std::size_t to,
                  const LeapfrogKernel* c) {
-    const double half = c->h / 2, k = c->k, alpha = c->alpha, beta = c->beta;
+    const double half = c->h / 2, k = c->k, alpha = c->slope.linear, beta = c->slope.cubic;
     for (std::size_t i = from; i < to; ++i)
         v[i] += half * (k * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) - u[i] * (alpha + beta * u[i] * u[i]));
 }
@@ -39,7 +39,7 @@ inline void addZeros(const double* __restrict x, std::size_t from, std::size_t t
 /// The velocity of an end after a kick: the neighbours of a free end are both the one that is there.
 inline double kickedEnd(double v, double u, double left, double right, const LeapfrogKernel* c) {
     if (c->boundary == Boundary::dirichlet) return v;
-    return v + c->h / 2 * (c->k * ((left - u) + (right - u)) - u * (c->alpha + c->beta * u * u));
+    return v + c->h / 2 * (c->k * ((left - u) + (right - u)) - u * (c->slope.linear + c->slope.cubic * u * u));
 }
 
 void stepAll(const LeapfrogKernel* c, const double* u, const double* v, double* nextU, double* nextV,

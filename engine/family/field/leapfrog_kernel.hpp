@@ -10,11 +10,13 @@
 #include <cstddef>
 
 #include "engine/mesh/mesh.hpp"
+#include "engine/model/field/potential.hpp"
 
 namespace extremal {
 
 struct LeapfrogKernel {
-    double h = 0, k = 0, alpha = 0, beta = 0;
+    double h = 0, k = 0;
+    CubicSlope slope;  ///< W'; alpha and beta above
     Boundary boundary = Boundary::periodic;
 
     /// n >= 3 nodes; next must not overlap. False where a value is not finite.

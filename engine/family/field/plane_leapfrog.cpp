@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "engine/core/algebra/instruction_set.hpp"
+#include "engine/family/field/plane_leapfrog_kernel.hpp"
 #include "engine/family/field/step_limit.hpp"
 #include "engine/model/plane_field/problem.hpp"
 #include "engine/step/field_march.hpp"
@@ -34,84 +36,32 @@ void differencesOf(const Row& row, const double* slope, double* to) {
     at(row.n - 1, row.here[row.n - 2], row.here[0]);
 }
 
-/// V = v + h/2 a, U = u + h V.
-void moveOn(const double* u, const double* v, const double* a, double h, std::size_t n, double* U,
-            double* V) {
-    for (std::size_t i = 0; i < n; ++i) {
-        V[i] = v[i] + h / 2 * a[i];
-        U[i] = u[i] + h * V[i];
-    }
-}
-
-/// V += h/2 a; adds a sum of 0 V, which is not a number where one of them is not finite.
-void kickAgain(const double* a, double h, std::size_t n, double* V, double* finite) {
-    constexpr std::size_t lanes = 8;
-    double sum[lanes] = {};
-    std::size_t i = 0;
-    for (; i + lanes <= n; i += lanes)
-        for (std::size_t k = 0; k < lanes; ++k) {
-            V[i + k] += h / 2 * a[i + k];
-            sum[k] += 0 * V[i + k];
-        }
-    for (; i < n; ++i) {
-        V[i] += h / 2 * a[i];
-        sum[0] += 0 * V[i];
-    }
-    for (const double each : sum) *finite += each;
-}
-
-/// Of one component with a force that costs less than keeping it the step is one pass through memory.
+/// Of one component with a cubic as its force the step is one pass through memory.
 class PlaneLeapfrog final : public KickDriftKick<FieldMarch> {
 public:
     PlaneLeapfrog(std::shared_ptr<const PlaneFieldProblem> problem, double step)
-        : KickDriftKick(problem->size(), step), problem_(std::move(problem)), slope_(n()) {
+        : KickDriftKick(problem->size(), step), problem_(std::move(problem)) {
         const wave::Grid& grid = problem_->grid();
         const double dx = grid.x.length / grid.nx, dy = grid.y.length / grid.ny;
         perX_ = 1 / (dx * dx);
         perY_ = grid.dimension() > 1 ? 1 / (dy * dy) : 0;
-        const int degree = problem_->potential().degree();
-        isStreamed_ = problem_->components() == 1 && grid.ny >= 3 && grid.nx >= 2 &&
-                      (problem_->potential().isZero() || (degree > 0 && degree <= 4));
-        if (isStreamed_) setChecked();
+        const auto slope = problem_->potential().cubicSlope();
+        if (!slope || grid.ny < 3 || grid.nx < 2) return;
+        setChecked();
+        streamed_ = {static_cast<std::size_t>(grid.nx), static_cast<std::size_t>(grid.ny), h(),
+                     problem_->stiffness() * perX_,     problem_->stiffness() * perY_,     *slope};
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<PlaneLeapfrog>(*this); }
 
 private:
     void prepare() override {
-        if (!isStreamed_) KickDriftKick::prepare();
+        if (!streamed_) KickDriftKick::prepare();
     }
     Outcome step(const double* x, double* next, StepReport& report) override {
-        if (!isStreamed_) return KickDriftKick::step(x, next, report);
-        const auto nx = static_cast<std::size_t>(problem_->grid().nx),
-                   ny = static_cast<std::size_t>(problem_->grid().ny);
-        const auto move = ForThisMachine<&moveOn>::call();
-        const auto kick = ForThisMachine<&kickAgain>::call();
-        double finite = 0;
-        const auto moveRow = [&](std::size_t j) {
-            const double* const a = accelerationOfRow(x, j);
-            move(x + j * nx, x + n() + j * nx, a, h(), nx, next + j * nx, next + n() + j * nx);
-        };
-        const auto kickRow = [&](std::size_t j) {
-            const double* const a = accelerationOfRow(next, j);
-            kick(a, h(), nx, next + n() + j * nx, &finite);
-        };
-        moveRow(0);
-        moveRow(1);
-        for (std::size_t j = 2; j < ny; ++j) {  // the rows around row j - 1 are there
-            moveRow(j);
-            kickRow(j - 1);
-        }
-        kickRow(ny - 1);
-        kickRow(0);
+        if (!streamed_) return KickDriftKick::step(x, next, report);
+        streamed_->h = h();
         report.cost.evaluations += static_cast<long long>(n());
-        return finite == 0 ? Outcome::converged : Outcome::notFinite;
-    }
-    /// Of row j of the only component; valid until the next call.
-    const double* accelerationOfRow(const double* u, std::size_t j) {
-        const auto nx = static_cast<std::size_t>(problem_->grid().nx);
-        problem_->potential().evaluate(u + j * nx, nx, nx, nullptr, slope_.data(), nullptr);
-        differences_(rowOf(u, j, problem_->stiffness()), slope_.data(), slope_.data() + nx);
-        return slope_.data() + nx;
+        return streamed_->step(x, x + n(), next, next + n()) ? Outcome::converged : Outcome::notFinite;
     }
     Row rowOf(const double* u, std::size_t j, double stiffness) const {
         const auto nx = static_cast<std::size_t>(problem_->grid().nx),
@@ -124,6 +74,7 @@ private:
                 stiffness * perY_};
     }
     void accelerate(double /*t*/, const double* u, double* a, Cost& cost) override {
+        slope_.resize(n());
         problem_->potential().evaluate(u, nodes(), nodes(), nullptr, slope_.data(), nullptr);
         addDifferences(u, slope_.data(), a);
         cost.evaluations += static_cast<long long>(n());
@@ -166,7 +117,7 @@ private:
     }
 
     std::shared_ptr<const PlaneFieldProblem> problem_;
-    bool isStreamed_ = false;
+    std::optional<PlaneLeapfrogKernel> streamed_;
     ForThisMachine<& differencesOf>::Call differences_ = ForThisMachine<&differencesOf>::call();
     double perX_ = 0, perY_ = 0;           ///< 1/dx^2, 1/dy^2; of a line 0
     std::vector<double> slope_;            ///< W'

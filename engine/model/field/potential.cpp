@@ -99,6 +99,21 @@ void FieldPotential::evaluate(const double* u, std::size_t n, double* W, double*
     }
 }
 
+std::optional<CubicSlope> FieldPotential::cubicSlope() const {
+    switch (kind_) {
+        case Kind::none:
+            return CubicSlope{0, 0};
+        case Kind::kleinGordon:
+            return CubicSlope{mass_ * mass_, 0};
+        case Kind::phi4:
+            return CubicSlope{-1, 1};
+        case Kind::sineGordon:
+        case Kind::typed:
+            break;
+    }
+    return std::nullopt;
+}
+
 double FieldPotential::operator()(double u) const {
     double value = 0;
     evaluate(&u, 1, &value, nullptr, nullptr);

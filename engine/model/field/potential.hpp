@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace extremal {
@@ -22,6 +23,11 @@ class TypedFunction;
 /// The degree of a polynomial f(s) of degree 12 at most, where Chebyshev's coefficients of its values on |s|
 /// < 2 end there, to 1e-13; 0: it is no such polynomial.
 int polynomialDegree(const std::function<double(double)>& f);
+
+/// W' = u (linear + cubic u^2).
+struct CubicSlope {
+    double linear = 0, cubic = 0;
+};
 
 class FieldPotential {
 public:
@@ -38,6 +44,8 @@ public:
 
     /// Of n values u: W, W' and W''. Null: not wanted.
     void evaluate(const double* u, std::size_t n, double* W, double* slope, double* curvature) const;
+    /// W' of potentials with a name, where it is a cubic.
+    std::optional<CubicSlope> cubicSlope() const;
     /// W at one value.
     double operator()(double u) const;
     /// The degree of W where it is a polynomial of degree 12 at most, else 0.

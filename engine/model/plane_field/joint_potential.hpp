@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,10 @@ public:
     /// wanted.
     void evaluate(const double* u, std::size_t n, std::size_t stride, double* W, double* slope,
                   double* curvature) const;
+    /// Of one component, as FieldPotential has it.
+    std::optional<CubicSlope> cubicSlope() const {
+        return kind_ == Kind::single ? single_.cubicSlope() : std::nullopt;
+    }
     /// The total degree of W where it is a polynomial of degree 12 at most, 0 where it is none: of typed ones
     /// seen along lines in general directions.
     int degree() const;

@@ -203,6 +203,43 @@ private slots:
         qInfo("%.4f %.4f", axis, diagonal);
         QVERIFY(std::abs(axis + 0.910) < 0.01 && std::abs(diagonal + 0.410) < 0.01);
     }
+    void inOnePassThroughMemoryItIsLeapfrog_data() {
+        QTest::addColumn<QString>("named");
+        QTest::addColumn<QString>("typed");
+        QTest::newRow("none") << "none"
+                              << "0*u^2";
+        QTest::newRow("klein-gordon") << "klein-gordon"
+                                      << "mass^2*u^2/2";
+        QTest::newRow("phi4") << "phi4"
+                              << "(u^2 - 1)^2/4";
+    }
+    void inOnePassThroughMemoryItIsLeapfrog() {
+        // Typed potentials keep their forces from step to step, over the whole rectangle.
+        QFETCH(QString, named);
+        QFETCH(QString, typed);
+        for (const auto& [nx, ny] : {std::pair{4, 4}, {8, 6}, {10, 24}, {26, 4}, {150, 12}}) {
+            const auto end = [&, nx = nx, ny = ny](const QString& potential) {
+                const System system = plane(qPrintable(potential), {0, 3, nx}, {0, 2, ny});
+                return after(system,
+                             startOf(system, "0.7*sin(2*pi*x/3) + 0.4*cos(pi*y) + 0.1*x*y",
+                                     "0.3*cos(2*pi*(x/3 + y/2)) - 0.2*x^2"),
+                             0, 0.5, 50);
+            };
+            const double most = largest(end(named), end(typed));
+            qInfo("%d x %d: %.1e", nx, ny, most);
+            QVERIFY(most < 2e-14);
+        }
+    }
+    void inOnePassWhatIsNotFiniteIsSeen() {
+        const System system = plane("phi4", {0, 3, 26}, {0, 2, 6});
+        for (std::size_t i = 0; i < 26 * 6; ++i) {
+            State state = startOf(system, "1", "0");
+            state.x[i] = 1e200;
+            const auto integrator =
+                findBaseline("leapfrog")->make(system, {.step = 0.01, .settings = {"leapfrog", {}, {}}});
+            QCOMPARE(advance(*integrator, state).outcome, Outcome::notFinite);
+        }
+    }
     void theLimitOfLeapfrogIsWhereItIsSaid() {
         // Unlike steps along x and y.
         const System system = plane("none", {0, 2 * pi, 16}, {0, 3 * pi, 40});
