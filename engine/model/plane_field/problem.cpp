@@ -16,6 +16,15 @@ std::vector<double> nodesAlong(const wave::Domain& domain, int n) {
     return nodes;
 }
 
+using Complex = std::complex<double>;
+
+/// What multiplies mode k >= 0 where the places move by so many cells.
+std::vector<Complex> turnsOf(int n, double cells) {
+    std::vector<Complex> turns;
+    for (int k = 0; 2 * k <= n; ++k) turns.push_back(std::polar(1.0, 2 * std::numbers::pi * cells * k / n));
+    return turns;
+}
+
 }  // namespace
 
 PlaneFieldProblem::PlaneFieldProblem(const wave::Grid& grid, std::vector<FieldComponent> components,
@@ -30,53 +39,75 @@ PlaneFieldProblem::PlaneFieldProblem(const wave::Grid& grid, std::vector<FieldCo
             if (speed(a) == speed(b) && potential_.turns(a, b)) turns_.emplace_back(a, b);
 }
 
-template <class F>
-void PlaneFieldProblem::forModes(const double* u, const double* v, F&& f) const {
+std::vector<double> PlaneFieldProblem::modesOf(const double* u) const {
     SpectralGrid ways(grid_.nx, grid_.ny, grid_.nx, grid_.ny);
-    std::vector<double> U(2 * ways.modes()), V(2 * ways.modes());
+    std::vector<double> U(components() * 2 * ways.modes());
+    for (std::size_t c = 0; c < components(); ++c)
+        ways.toModes(u + c * nodes(), U.data() + c * 2 * ways.modes());
+    return U;
+}
+
+template <class F>
+void PlaneFieldProblem::forModes(const std::vector<double>& U, const std::vector<double>& V, F&& f) const {
     const int width = grid_.nx / 2 + 1;
-    for (std::size_t c = 0; c < components(); ++c) {
-        ways.toModes(u + c * nodes(), U.data());
-        ways.toModes(v + c * nodes(), V.data());
+    std::size_t i = 0;
+    for (std::size_t c = 0; c < components(); ++c)
         for (int l = 0; l < grid_.ny; ++l)
-            for (int k = 0; k < width; ++k) {
-                const auto i = static_cast<std::size_t>(2 * (k + l * width));
-                f(c, k, 2 * l > grid_.ny ? l - grid_.ny : l, std::complex<double>(U[i], U[i + 1]),
-                  std::complex<double>(V[i], V[i + 1]), k == 0 || 2 * k == grid_.nx ? 1 : 2);
-            }
-    }
+            for (int k = 0; k < width; ++k, i += 2)
+                f(c, k, 2 * l > grid_.ny ? l - grid_.ny : l, Complex(U[i], U[i + 1]), Complex(V[i], V[i + 1]),
+                  k == 0 || 2 * k == grid_.nx ? 1 : 2);
+}
+
+double PlaneFieldProblem::meanPotential(const std::vector<double>& U) const {
+    if (potential_.isZero()) return 0;
+    SpectralGrid ways(grid_.nx, grid_.ny, grid_.nx, grid_.ny);
+    std::vector<double> moved(2 * ways.modes()), u(size()), W(nodes());
+    const auto at = [&](double cellsX, double cellsY) {
+        const std::vector<Complex> turnX = turnsOf(grid_.nx, cellsX), turnY = turnsOf(grid_.ny, cellsY);
+        std::size_t i = 0;
+        forModes(U, U, [&](std::size_t c, int k, int l, auto mode, auto, int) {
+            const bool isAlternating = 2 * k == grid_.nx || (grid_.ny > 1 && 2 * l == grid_.ny);
+            const Complex across = turnY[static_cast<std::size_t>(std::abs(l))];
+            const Complex value = isAlternating ? 0.0
+                                                : mode * turnX[static_cast<std::size_t>(k)] *
+                                                      (l < 0 ? std::conj(across) : across);
+            moved[i] = value.real();
+            moved[i + 1] = value.imag();
+            i += 2;
+            if (i < moved.size()) return;
+            ways.toNodes(moved.data(), u.data() + c * nodes());
+            i = 0;
+        });
+        potential_.evaluate(u.data(), nodes(), nodes(), W.data(), nullptr, nullptr);
+        double sum = 0;
+        for (const double each : W) sum += each;
+        return sum / static_cast<double>(nodes());
+    };
+    const double atRows = (at(0, 0) + at(0.5, 0)) / 2;
+    return grid_.ny > 1 ? (atRows + (at(0, 0.5) + at(0.5, 0.5)) / 2) / 2 : atRows;
 }
 
 double PlaneFieldProblem::energy(const double* state) const {
     const double turn = 2 * std::numbers::pi;
+    const std::vector<double> U = modesOf(state);
     double quadratic = 0;
-    forModes(state, state + size(), [&](std::size_t c, int k, int l, auto u, auto v, int weight) {
+    forModes(U, modesOf(state + size()), [&](std::size_t c, int k, int l, auto u, auto v, int weight) {
         const double K = turn * k / grid_.x.length, L = turn * l / grid_.y.length;
         quadratic += weight * (std::norm(v) + stiffness(c) * (K * K + L * L) * std::norm(u)) / 2;
     });
-    SpectralGrid fine(grid_.nx, grid_.ny, 2 * grid_.nx, grid_.ny > 1 ? 2 * grid_.ny : 1);
-    const std::size_t points = fine.points();
-    std::vector<double> U(2 * fine.modes()), values(points), u(components() * points), W(points);
-    for (std::size_t c = 0; c < components(); ++c) {
-        fine.toModes(state + c * nodes(), U.data());
-        fine.toPoints(U.data(), values.data());
-        std::copy(values.begin(), values.end(), u.begin() + static_cast<std::ptrdiff_t>(c * points));
-    }
-    potential_.evaluate(u.data(), points, points, W.data(), nullptr, nullptr);
-    double sum = 0;
-    for (const double each : W) sum += each;
-    return grid_.measure() * (quadratic + sum / static_cast<double>(W.size()));
+    return grid_.measure() * (quadratic + meanPotential(U));
 }
 
 std::array<double, 2> PlaneFieldProblem::momentum(const double* state) const {
     const double turn = 2 * std::numbers::pi;
     std::array<double, 2> sum{};
-    forModes(state, state + size(), [&](std::size_t, int k, int l, auto u, auto v, int weight) {
-        if (2 * k == grid_.nx || 2 * l == grid_.ny) return;
-        const double both = weight * std::imag(u * std::conj(v));
-        sum[0] += turn * k / grid_.x.length * both;
-        sum[1] += turn * l / grid_.y.length * both;
-    });
+    forModes(modesOf(state), modesOf(state + size()),
+             [&](std::size_t, int k, int l, auto u, auto v, int weight) {
+                 if (2 * k == grid_.nx || 2 * l == grid_.ny) return;
+                 const double both = weight * std::imag(u * std::conj(v));
+                 sum[0] += turn * k / grid_.x.length * both;
+                 sum[1] += turn * l / grid_.y.length * both;
+             });
     return {grid_.measure() * sum[0], grid_.measure() * sum[1]};
 }
 
@@ -127,7 +158,8 @@ std::vector<double> PlaneFieldProblem::charges(const double* state) const {
 
 double PlaneFieldProblem::tail(const double* state) const {
     double upper = 0, all = 0;
-    forModes(state, state, [&](std::size_t, int k, int l, auto u, auto, int weight) {
+    const std::vector<double> U = modesOf(state);
+    forModes(U, U, [&](std::size_t, int k, int l, auto u, auto, int weight) {
         const double share = weight * std::norm(u);
         all += share;
         if (16 * k >= 7 * grid_.nx || (grid_.ny > 1 && 16 * std::abs(l) >= 7 * grid_.ny)) upper += share;
