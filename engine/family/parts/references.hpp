@@ -21,6 +21,9 @@ struct ReferencePlan {
     double step = 0, expectedError = 0;
     /// Where halving begins; 0: at the period of the fastest motion, which it must resolve.
     double firstStep = 0;
+    /// More steps than these, of all the runs that are compared at least, are not made; 0: without a limit of
+    /// the plan.
+    double mostSteps = 0;
 };
 
 /// The scheme that references of systems on meshes are computed with: on a mesh of its own.

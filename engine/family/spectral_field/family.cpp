@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -175,13 +176,25 @@ std::string mismatchOf(const Discretization& d, const System& system) {
     return refusal ? refusal->message : std::string();
 }
 
-/// Of fields over rectangles, which have no other trusted scheme: degree 6.
-ReferencePlan trusted(const System& system, const State&, double) {
-    if (!system.parts.find<PlaneField>()) return {};
+/// Of fields over rectangles, which have no other trusted scheme: degree 6, with steps that turn the fastest
+/// wave of the mesh by two at first.
+ReferencePlan trusted(const System& system, const State&, double duration) {
+    const auto* const plane = system.parts.find<PlaneField>();
+    if (!plane) return {};
+    constexpr double mostUpdatesOfNodes = 5e7, fewestSteps = 5;
     Discretization d;
     d.space = {"fourier-field", {{"degree", 6.0}, {"nodes", "same"}}, {}};
     d.quadrature = completePlainRule({}, 6, 1);
-    return referenceBy("Fourier modes with Gauss of degree 6", system, d);
+    ReferencePlan plan = referenceBy("Fourier modes with Gauss of degree 6", system, d);
+    const PlaneFieldProblem& problem = *plane->problem;
+    const wave::Grid& grid = problem.grid();
+    const double shortest =
+        std::numbers::pi * std::hypot(grid.nx / grid.x.length, grid.ny > 1 ? grid.ny / grid.y.length : 0);
+    double speed = 0;
+    for (std::size_t c = 0; c < problem.components(); ++c) speed = std::max(speed, problem.speed(c));
+    plan.firstStep = std::min(duration / fewestSteps, 2 / (speed * shortest));
+    plan.mostSteps = mostUpdatesOfNodes / static_cast<double>(problem.size());
+    return plan;
 }
 
 /// A periodic model as trigonometric polynomials; others stay as they are, to be refused.

@@ -100,12 +100,18 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
         step = std::min(length / 20, w > 0 ? 2 / w : length / 200);
     }
     step = std::max(step, length / maxSteps);
+    const auto isTooMuch = [&] { return plan.mostSteps > 0 && 3 * length / step > plan.mostSteps; };
+    if (isTooMuch())
+        return withoutReference("to compute one would take " +
+                                std::to_string(std::llround(std::ceil(3 * length / step))) + " steps of " +
+                                plan.description + ", and on a mesh of this size at most " +
+                                std::to_string(std::llround(std::floor(plan.mostSteps))) + " are made");
     const ErrorMeasure measure = errorMeasure(system, initial);
 
     Reference best;
     double last = std::numeric_limits<double>::infinity(), bestStep = step;
     for (int refinement = 0; refinement < 8 && !stop.stop_requested(); ++refinement, step /= 2) {
-        if (length / step > maxSteps) break;
+        if (length / step > maxSteps || isTooMuch()) break;
         auto coarse = solution(step), fine = solution(step / 2);
         const double error =
             solutionDistance(fine(), coarse(), step, family->parts.find<NodesAlone>() != nullptr, scene,
