@@ -46,15 +46,16 @@ std::vector<FieldInfo> planeFieldParameters() {
             across};
 }
 
+constexpr int mostNodes = 1 << 22;
+
 System makePlaneField(const Settings& settings) {
     const wave::Grid grid{domainOf(settings, "domain"), modesOf(settings, "cells", true),
                           domainOf(settings, "domain_y"), modesOf(settings, "cells_y", true)};
-    if (grid.size() > wave::mostPlaces)
+    if (grid.size() > mostNodes)
         throw InvalidScene("/cells_y",
-                           "must make at most " + std::to_string(wave::mostPlaces) +
-                               " nodes with /cells, got " + std::to_string(grid.nx) + " x " +
-                               std::to_string(grid.ny),
-                           "512 x 512 and less");
+                           "must make at most " + std::to_string(mostNodes) + " nodes with /cells, got " +
+                               std::to_string(grid.nx) + " x " + std::to_string(grid.ny),
+                           "2048 x 2048 and less");
     System s;
     if (hasDensity(settings)) {
         refuseKeysBesideDensity(settings);
