@@ -276,7 +276,7 @@ std::unique_ptr<Integrator> makeElementField(const SpectralDomain& domain, const
                                              double step) {
     return std::make_unique<ModalField<ElementGrid>>(
         ElementGrid({domain.nx, scheme.degree, domain.lengthX}, {domain.ny, scheme.degree, domain.lengthY},
-                    scheme.inSpace),
+                    scheme.alongX, scheme.alongY),
         domain, StepInTime{scheme.degreeInTime, scheme.inTime, scheme.solver}, step);
 }
 

@@ -55,7 +55,7 @@ std::unique_ptr<Integrator> makeSpectralField(const SpectralDomain& domain, cons
 /// Elements of degree r along each axis, whose number of nodes is a multiple of it.
 struct ElementScheme {
     int degree = 1;
-    Rule<double> inSpace;  ///< along every axis; it sees the mass of every function
+    Rule<double> alongX, alongY;  ///< each sees the mass of every function
     int degreeInTime = 1;
     Rule<double> inTime;
     StageSolver solver;

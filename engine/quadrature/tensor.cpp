@@ -20,6 +20,13 @@ Settings termPart(const Settings& quadrature, std::string_view term) {
     return isTermRule(quadrature) ? partOf(quadrature, term) : Settings{};
 }
 
+std::vector<const char*> tensorPartsOf(const Settings& quadrature) {
+    std::vector<const char*> parts;
+    for (const char* direction : {tensorParts[0], acrossPart, tensorParts[1]})
+        if (isTensorRule(quadrature) && quadrature.find(direction)) parts.push_back(direction);
+    return parts;
+}
+
 Settings tensorPart(const Settings& quadrature, std::string_view direction) {
     return isTensorRule(quadrature) ? partOf(quadrature, direction) : Settings{};
 }

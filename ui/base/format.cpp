@@ -105,7 +105,8 @@ QString innerText(const SchemeSpec& spec) {
     text += QStringLiteral(" × ");
     if (!isTensorRule(spec.quadrature)) return text + ruleText(spec.quadrature);
     QStringList parts;
-    for (const char* direction : tensorParts) parts << ruleText(tensorPart(spec.quadrature, direction));
+    for (const char* direction : tensorPartsOf(spec.quadrature))
+        parts << ruleText(tensorPart(spec.quadrature, direction));
     return text + parts.join(", ");
 }
 

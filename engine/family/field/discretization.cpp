@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "engine/core/problem.hpp"
@@ -27,7 +28,10 @@ bool hasOwnFunctions(const Settings& space) {
 }
 
 Settings ruleSettingsIn(const Settings& quadrature, const char* direction) {
-    return isTensorRule(quadrature) ? tensorPart(quadrature, direction) : quadrature;
+    if (!isTensorRule(quadrature)) return quadrature;
+    return tensorPart(quadrature, direction == std::string_view(acrossPart) && !quadrature.find(acrossPart)
+                                      ? tensorParts[0]
+                                      : direction);
 }
 
 Rule<double> ruleIn(const Settings& quadrature, const char* direction, int degree) {

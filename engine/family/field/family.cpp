@@ -124,11 +124,12 @@ bool refuseDegrees(Properties& p, const Discretization& d, const TentDegrees& de
 
 /// The same of rules.
 bool refuseRules(Properties& p, const Discretization& d, const TentDegrees& degrees) {
-    for (const auto& [direction, degree] :
-         {std::pair{"space", degrees.space}, std::pair{"time", degrees.time}}) {
+    for (const auto& [direction, degree] : {std::pair{tensorParts[0], degrees.space},
+                                            {acrossPart, degrees.space},
+                                            {tensorParts[1], degrees.time}}) {
         const Properties own = inDirection(d.quadrature, direction, degree);
         if (own.refusal.empty()) continue;
-        p.refusal = own.refusal + " in " + direction;
+        p.refusal = own.refusal + (direction == acrossPart ? " along y" : std::string(" in ") + direction);
         p.hint = own.hint;
         return true;
     }
@@ -161,7 +162,10 @@ void describeStability(Properties& p, const Discretization& d, int degree, const
 
 /// "leapfrog", "midpoint × trapezoid": the name of the scheme of this space and rules.
 std::string nameOfTent(const Discretization& d, const TentDegrees& degrees, bool isExplicit) {
-    const std::string spaceRule = ruleName(d.quadrature, "space"), timeRule = ruleName(d.quadrature, "time");
+    std::string spaceRule = ruleName(d.quadrature, "space");
+    const std::string timeRule = ruleName(d.quadrature, "time");
+    if (d.quadrature.find(acrossPart))
+        return spaceRule + " × " + ruleName(d.quadrature, acrossPart) + " × " + timeRule;
     if (hasOwnFunctions(d.space))
         return (d.space.text("functions") == "snapshots" ? "snapshots × " : "cell problem × ") + timeRule;
     if (degrees.space == 1 && degrees.time == 1) {
@@ -182,10 +186,11 @@ Properties describeTent(const Discretization& d) {
                   text("time", degrees.time);
     if (refuseRules(p, d, degrees)) return p;
     const Properties space = inDirection(d.quadrature, "space", degrees.space),
+                     across = inDirection(d.quadrature, acrossPart, degrees.space),
                      time = inDirection(d.quadrature, "time", degrees.time);
     const Rule<double> rule = ruleIn(d.quadrature, "space", degrees.space);
-    p.claims.order = std::min(space.claims.order, time.claims.order);
-    p.orderInSpace = space.claims.order;
+    p.orderInSpace = std::min(space.claims.order, across.claims.order);
+    p.claims.order = std::min(p.orderInSpace, time.claims.order);
     p.claims.isSymmetric = time.claims.isSymmetric;
     p.claims.isSymplectic = true;
     p.claims.conserves = {"multisymplectic form", "momentum"};
@@ -194,7 +199,7 @@ Properties describeTent(const Discretization& d) {
     p.prefix = "Fields ";
     const TimeTable table = timeTable(d);
     const bool isLumped = !hasOwnFunctions(d.space) && rule.size() == degrees.space + 1 &&
-                          rule.c.front() == 0 && rule.c.back() == 1;
+                          rule.c.front() == 0 && rule.c.back() == 1 && !d.quadrature.find(acrossPart);
     p.isExplicit = table.isTrapezoid() && isLumped;
     describeStability(p, d, degrees.space, rule, timeLimit(table));
     p.knownAs = nameOfTent(d, degrees, p.isExplicit);

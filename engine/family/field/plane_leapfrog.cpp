@@ -130,8 +130,8 @@ std::unique_ptr<Integrator> makePlaneLeapfrog(const System& system, double step)
     return std::make_unique<PlaneLeapfrog>(system.part<PlaneField>().problem, step);
 }
 
-double longestPlaneStep(const PlaneFieldProblem& problem, const double* u, int degree, double eigenvalue,
-                        double limit) {
+double longestPlaneStep(const PlaneFieldProblem& problem, const double* u, int degree,
+                        const AxisEigenvalues& eigenvalues, double limit) {
     if (std::isinf(limit)) return limit;
     const wave::Grid& grid = problem.grid();
     const double dx = degree * grid.x.length / grid.nx, dy = degree * grid.y.length / grid.ny;
@@ -146,11 +146,11 @@ double longestPlaneStep(const PlaneFieldProblem& problem, const double* u, int d
     }
     const double curvature = std::max(0.0, problem.potential().largestCurvature(low, high)),
                  perY = grid.dimension() > 1 ? 1 / (dy * dy) : 0;
-    return limit / std::sqrt(eigenvalue * stiffness * (1 / (dx * dx) + perY) + curvature);
+    return limit / std::sqrt(stiffness * (eigenvalues.x / (dx * dx) + eigenvalues.y * perY) + curvature);
 }
 
 double planeLeapfrogLimit(const PlaneFieldProblem& problem, const double* u) {
-    return longestPlaneStep(problem, u, 1, 4, 2);
+    return longestPlaneStep(problem, u, 1, {4, 4}, 2);
 }
 
 void checkPlaneStep(const PlaneFieldProblem& problem, double longest, const std::string& name,

@@ -22,10 +22,15 @@ std::unique_ptr<Integrator> makePlaneLeapfrog(const System& system, double step)
 /// The longest stable step, with the largest W'' between the extremes of u.
 double planeLeapfrogLimit(const PlaneFieldProblem& problem, const double* u);
 
-/// The same of elements of a degree: `eigenvalue`, the largest of those of length 1 along one axis; `limit`,
-/// the largest stable step times frequency, infinite if every one is stable.
-double longestPlaneStep(const PlaneFieldProblem& problem, const double* u, int degree, double eigenvalue,
-                        double limit);
+/// The largest eigenvalue of elements of length 1 along each axis.
+struct AxisEigenvalues {
+    double x = 4, y = 4;
+};
+
+/// The same of elements of a degree. `limit`: the largest stable step times frequency, infinite if every one
+/// is stable.
+double longestPlaneStep(const PlaneFieldProblem& problem, const double* u, int degree,
+                        const AxisEigenvalues& eigenvalues, double limit);
 /// Says that the step of a scheme is longer.
 void checkPlaneStep(const PlaneFieldProblem& problem, double longest, const std::string& name,
                     const SchemeCase& scheme, Findings& findings);

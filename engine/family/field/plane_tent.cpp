@@ -2,6 +2,7 @@
 #include "engine/family/field/plane_tent.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "engine/family/field/plane_leapfrog.hpp"
 #include "engine/family/modal_step.hpp"
 #include "engine/family/table_properties.hpp"
+#include "engine/quadrature/tensor.hpp"
 #include "engine/space/polynomial.hpp"
 
 namespace extremal {
@@ -19,10 +21,24 @@ namespace {
 /// Modes of one axis are a dense matrix, and the ways to them products with it.
 constexpr int mostNodesOfAnAxis = 512;
 
+/// The rules along x and along y.
+std::array<Rule<double>, 2> rulesInSpace(const Discretization& d) {
+    const int degree = tentDegrees(d.space).space;
+    return {ruleIn(d.quadrature, tensorParts[0], degree), ruleIn(d.quadrature, acrossPart, degree)};
+}
+
+AxisEigenvalues eigenvaluesOf(const Discretization& d) {
+    const int degree = tentDegrees(d.space).space;
+    const auto [alongX, alongY] = rulesInSpace(d);
+    return {largestSpatialEigenvalue(degree, alongX), largestSpatialEigenvalue(degree, alongY)};
+}
+
 bool isLeapfrog(const Discretization& d) {
-    const TentDegrees degrees = tentDegrees(d.space);
-    const Rule<double> rule = ruleIn(d.quadrature, "space", degrees.space);
-    return degrees.space == 1 && rule.size() == 2 && rule.c.front() == 0 && rule.c.back() == 1 &&
+    const auto isTrapezoid = [](const Rule<double>& rule) {
+        return rule.size() == 2 && rule.c.front() == 0 && rule.c.back() == 1;
+    };
+    const auto [alongX, alongY] = rulesInSpace(d);
+    return tentDegrees(d.space).space == 1 && isTrapezoid(alongX) && isTrapezoid(alongY) &&
            timeTable(d).isTrapezoid();
 }
 
@@ -49,14 +65,15 @@ std::optional<Problem> refusalOnPlane(const Discretization& d, const PlaneFieldP
         return Problem{"/solver/method",
                        "newton solves slabs of one scalar field on a line; here modes are solved one by one",
                        "leave it out"};
-    const Rule<double> rule = ruleIn(d.quadrature, "space", degrees.space);
-    if (!(leastMass(degrees.space, rule) > 0))
+    for (const Rule<double>& rule : rulesInSpace(d)) {
+        if (leastMass(degrees.space, rule) > 0) continue;
         return Problem{"/quadrature",
                        "the rule of " + std::to_string(rule.size()) +
                            (rule.size() == 1 ? " node" : " nodes") +
                            " in space does not see the mass of every function of degree " +
                            std::to_string(degrees.space) + ", and without it a mode has no motion",
                        "gauss or lobatto with " + std::to_string(degrees.space + 1) + " nodes in space"};
+    }
     for (const auto& [key, nodes] : {std::pair{"/model/cells", grid.nx}, {"/model/cells_y", grid.ny}}) {
         if (nodes == 1) continue;  // a line
         if (nodes % degrees.space != 0 || nodes / degrees.space < 2)
@@ -83,33 +100,38 @@ std::string mismatchOnPlane(const Discretization& d, const System& system) {
 }
 
 std::optional<Properties> describeOnPlane(const Discretization& d, const System& system) {
-    if (!system.parts.find<PlaneField>()) return {};
+    const auto* const plane = system.parts.find<PlaneField>();
+    if (d.quadrature.find(acrossPart) && !(plane && plane->problem->grid().dimension() > 1)) {
+        Properties p;
+        p.refusal = "a rule along y is for fields over rectangles, and this one is on a line";
+        p.hint = "\"space\" and \"time\"";
+        p.place = std::string("/quadrature/") + acrossPart;
+        return p;
+    }
+    if (!plane) return {};
     Properties p = describe(d);
     const TentDegrees degrees = tentDegrees(d.space);
     if (!p.refusal.empty()) return p;
     p.orderInSpace = std::min(p.orderInSpace, degrees.space == 1 ? 2 : 4);
-    const Rule<double> space = ruleIn(d.quadrature, "space", degrees.space),
-                       time = ruleIn(d.quadrature, "time", degrees.time);
+    const Rule<double> time = ruleIn(d.quadrature, "time", degrees.time);
     p.claims.order =
         orderBounds(makeTable<double>(polynomialSpace<double>(degrees.time, PolynomialBasis::lobatto), time))
             .order();
     if (!(p.stabilityLimit > 0)) return p;
-    p.remark =
-        "order " + std::to_string(p.claims.order) + " in time, stable " +
-        (std::isinf(p.stabilityLimit)
-             ? std::string("at every step")
-             : "for c dt √(1/dx² + 1/dy²) up to " +
-                   formatNumber(p.stabilityLimit / std::sqrt(largestSpatialEigenvalue(degrees.space, space)),
-                                3) +
-                   ", dx and dy the sides of an element");
+    const AxisEigenvalues most = eigenvaluesOf(d);
+    const std::string squares =
+        most.x == most.y ? "1/dx² + 1/dy²" : "1/dx² + " + formatNumber(most.y / most.x, 3) + "/dy²";
+    p.remark = "order " + std::to_string(p.claims.order) + " in time, stable " +
+               (std::isinf(p.stabilityLimit) ? std::string("at every step")
+                                             : "for c dt √(" + squares + ") up to " +
+                                                   formatNumber(p.stabilityLimit / std::sqrt(most.x), 3) +
+                                                   ", dx and dy the sides of an element");
     return p;
 }
 
 double longestPlaneStep(const Discretization& d, const PlaneFieldProblem& problem, const double* u,
                         double steps) {
-    const int degree = tentDegrees(d.space).space;
-    return longestPlaneStep(problem, u, degree,
-                            largestSpatialEigenvalue(degree, ruleIn(d.quadrature, "space", degree)),
+    return longestPlaneStep(problem, u, tentDegrees(d.space).space, eigenvaluesOf(d),
                             timeLimit(timeTable(d), steps));
 }
 
@@ -128,7 +150,9 @@ std::unique_ptr<Integrator> makePlaneTent(const System& system, const Discretiza
     const TentDegrees degrees = tentDegrees(d.space);
     ElementScheme scheme;
     scheme.degree = degrees.space;
-    scheme.inSpace = ruleIn(d.quadrature, "space", degrees.space);
+    const auto [alongX, alongY] = rulesInSpace(d);
+    scheme.alongX = alongX;
+    scheme.alongY = alongY;
     scheme.degreeInTime = degrees.time;
     scheme.inTime = ruleIn(d.quadrature, "time", degrees.time);
     scheme.solver = {d.solver.number("tolerance"), d.solver.integer("max_iterations")};

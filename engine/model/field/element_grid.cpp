@@ -117,9 +117,13 @@ std::shared_ptr<const ElementGrid::Axis> ElementGrid::axisOf(const ElementAxis& 
     return made;
 }
 
-ElementGrid::ElementGrid(const ElementAxis& x, const ElementAxis& y, const Rule<double>& rule)
-    : x_(axisOf(x, rule)),
-      y_(x.nodes == y.nodes && x.degree == y.degree && x.length == y.length ? x_ : axisOf(y, rule)),
+ElementGrid::ElementGrid(const ElementAxis& x, const ElementAxis& y, const Rule<double>& alongX,
+                         const Rule<double>& alongY)
+    : x_(axisOf(x, alongX)),
+      y_(x.nodes == y.nodes && x.degree == y.degree && x.length == y.length && alongX.c == alongY.c &&
+                 alongX.b == alongY.b
+             ? x_
+             : axisOf(y, alongY)),
       measure_(x.length * y.length),
       between_(static_cast<std::size_t>((std::max(x_->points, x_->nodes) + packed - 1) / packed * packed) *
                static_cast<std::size_t>(std::max(y_->points, y_->nodes))) {}

@@ -3,7 +3,7 @@
 /// points of a quadrature rule.
 ///
 /// Along one axis of N nodes at equal distances the functions are polynomials of degree r on each of N/r
-/// elements, and continuous. With one rule of points x_q and weights w_q for all integrals,
+/// elements, and continuous. With one rule of points x_q and weights w_q for all integrals along the axis,
 ///
 ///     M = B^T w B,   K = D^T w D,   B_qi = phi_i(x_q),   D_qi = phi_i'(x_q),
 ///     K U = M U diag(lambda),   U^T M U = 1.
@@ -30,9 +30,10 @@ struct ElementAxis {
 
 class ElementGrid {
 public:
-    /// Along each axis the nodes are a multiple of its degree, and the rule sees the mass of every function.
+    /// Along each axis the nodes are a multiple of its degree, and its rule sees the mass of every function.
     /// One node along y makes it a line.
-    ElementGrid(const ElementAxis& x, const ElementAxis& y, const Rule<double>& rule);
+    ElementGrid(const ElementAxis& x, const ElementAxis& y, const Rule<double>& alongX,
+                const Rule<double>& alongY);
 
     std::size_t nodes() const;
     std::size_t points() const;

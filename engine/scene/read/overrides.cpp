@@ -63,16 +63,16 @@ std::vector<std::string> schemeKeys(const Value& object, const std::vector<std::
     if (inScheme.empty()) return format::scheme;
     if (inScheme[0] == "quadrature") {
         // The names of terms are those of the system: a wrong one is found when the scene is read.
-        const bool isOfTerms = inScheme.size() == 1 && !object.find("type") && !object.find(tensorParts[0]) &&
-                               !object.find(tensorParts[1]);
+        const bool isTensor =
+            inScheme.size() == 1 &&
+            (object.find(tensorParts[0]) || object.find(acrossPart) || object.find(tensorParts[1]));
+        const bool isOfTerms = inScheme.size() == 1 && !object.find("type") && !isTensor;
         if (isOfTerms && object.isObject()) {
             std::vector<std::string> names{otherTerms};
             for (const auto& [name, rule] : object.asObject()) names.push_back(name);
             return names;
         }
-        const bool isTensor =
-            inScheme.size() == 1 && (object.find(tensorParts[0]) || object.find(tensorParts[1]));
-        return isTensor ? std::vector<std::string>{"type", tensorParts[0], tensorParts[1]}
+        return isTensor ? std::vector<std::string>{"type", tensorParts[0], acrossPart, tensorParts[1]}
                         : typedKeys(object, quadratureCatalog());
     }
     if (inScheme.size() > 1) return {};

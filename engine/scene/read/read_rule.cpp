@@ -42,7 +42,7 @@ std::vector<const CatalogItem*> singleRules() {
 bool isProductValue(const Value& value) {
     const Value* type = value.isString() ? &value : value.find("type");
     if (type) return *type == Value("product");
-    return value.find("space") || value.find("time");
+    return value.find("space") || value.find("time") || value.find(acrossPart);
 }
 
 /// The degree of a space in one direction: degrees may be given for each.
@@ -56,17 +56,19 @@ std::optional<Settings> readProduct(Reader& reader, const Value& value, const st
                                     const Settings& space) {
     if (!reader.isObject(value, pointer)) return {};
     const std::size_t errorsBefore = reader.errors.size();
-    reader.checkKeys(value, pointer, {"type", tensorParts[0], tensorParts[1]});
+    reader.checkKeys(value, pointer, {"type", tensorParts[0], acrossPart, tensorParts[1]});
     Settings product{"product", {}, {}};
-    for (const char* direction : tensorParts) {
+    for (const char* direction : {tensorParts[0], acrossPart, tensorParts[1]}) {
         const std::string place = childPointer(pointer, direction);
         const Value* const given = value.find(direction);
         if (!given) {
+            if (direction == acrossPart) continue;
             reader.error(place, std::string("is required: the rule in ") + direction,
                          "for example \"" + std::string(direction) + "\": \"gauss\"");
             continue;
         }
-        const Settings context{"", {{"degree", degreeIn(space, direction)}}, {}};
+        const char* const ofDegree = direction == acrossPart ? tensorParts[0] : direction;
+        const Settings context{"", {{"degree", degreeIn(space, ofDegree)}}, {}};
         const Value gauss("gauss");
         auto part = readSettings(reader, isAutomatic(given) ? gauss : *given, place, "quadrature",
                                  singleRules(), fitToDegree, context);

@@ -363,9 +363,9 @@ std::string innerLabel(const SchemeSpec& scheme) {
             rule +=
                 (rule.empty() ? "" : ", ") + name + " " + text(termPart(scheme.quadrature, name), "nodes");
     }
-    if (isTensorRule(scheme.quadrature))
-        rule = text(tensorPart(scheme.quadrature, "space"), "nodes") + " x " +
-               text(tensorPart(scheme.quadrature, "time"), "nodes");
+    if (isTensorRule(scheme.quadrature)) rule.clear();
+    for (const char* direction : tensorPartsOf(scheme.quadrature))
+        rule += (rule.empty() ? "" : " x ") + text(tensorPart(scheme.quadrature, direction), "nodes");
     return text(scheme.space, "degree") + basis + ", " + rule;
 }
 

@@ -151,7 +151,8 @@ Value typedChoice(const Entries& entries) {
 /// One rule, or one for each direction, or one for each term.
 Value quadratureChoice() {
     Value product{Value::Object{}};
-    for (const char* direction : tensorParts) product.set(direction, reference("rule"));
+    for (const char* direction : {tensorParts[0], acrossPart, tensorParts[1]})
+        product.set(direction, reference("rule"));
     Value terms = typed("object", findRule("terms")->item.description.c_str());
     terms.set("additionalProperties", reference("rule"));
     return anyOf(

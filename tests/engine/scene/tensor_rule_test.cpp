@@ -102,6 +102,32 @@ private slots:
                      ->asNumber(),
                  4.0);
     }
+    /// Another rule along y is for rectangles.
+    void rulesAlongYAreForRectangles() {
+        const auto read = [](const char* model, const char* rule) {
+            return readScene(R"J({"extremal":1,"model":{"type":")J" + std::string(model) +
+                             R"J(","cells":8},"time":{"end":1},"initial":{"u":"1"},"schemes":)J" +
+                             R"J([{"step":0.1,"space":"tent","quadrature":)J" + rule + "}]}");
+        };
+        const char* const both =
+            R"({"space":"trapezoid","space_y":{"type":"gauss","nodes":2},"time":"gauss"})";
+        const auto plane = read("field-2d", both);
+        QVERIFY2(plane.errors.empty(), plane.errors.empty() ? "" : plane.errors[0].message.c_str());
+        const Settings& rule = plane.scene.schemes[0].quadrature;
+        QCOMPARE(tensorPartsOf(rule).size(), std::size_t{3});
+        QCOMPARE(tensorPart(rule, acrossPart).integer("nodes"), 2);
+        QVERIFY(ruleValue(rule).find("space_y"));
+        const auto line = read("field", both);
+        QCOMPARE(line.errors.size(), std::size_t{1});
+        QVERIFY2(line.errors[0].message.find("along y") != std::string::npos, line.errors[0].message.c_str());
+        const auto unseen = read("field-2d", R"({"space":"gauss","space_y":"midpoint","time":"gauss"})");
+        QCOMPARE(unseen.errors.size(), std::size_t{1});
+        const auto missing = read("field-2d", R"({"space_y":"gauss","time":"gauss"})");
+        QCOMPARE(missing.errors.size(), std::size_t{1});
+        QCOMPARE(missing.errors[0].pointer, std::string("/schemes/0/quadrature/space"));
+        QCOMPARE(onlyErrorOf(R"({"space":"gauss","space_y":{"type":"gaus"},"time":"gauss"})").pointer,
+                 std::string("/quadrature/space_y/type"));
+    }
     void rulesThatASpaceLacksAreErrorsOfTheScene() {
         const auto errors = [](const char* form, const char* rule) {
             return readScene(

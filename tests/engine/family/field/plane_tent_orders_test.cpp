@@ -270,6 +270,52 @@ private slots:
             QVERIFY(grown(0.99) < 1e3 && grown(1.01) > 1e6);
         }
     }
+    void everyAxisHasItsOwnLimit_data() {
+        QTest::addColumn<int>("degree");
+        QTest::addColumn<double>("alongX");
+        QTest::addColumn<double>("alongY");
+        QTest::newRow("1") << 1 << 1.0 << 0.5774;
+        QTest::newRow("2") << 2 << 0.4082 << 0.2582;
+        QTest::newRow("3") << 3 << 0.2320 << 0.1533;
+    }
+    /// Lobatto along x and Gauss along y; and a field that is constant along one axis is that of the line
+    /// with the rule of the other.
+    void everyAxisHasItsOwnLimit() {
+        QFETCH(int, degree);
+        QFETCH(double, alongX);
+        QFETCH(double, alongY);
+        const Discretization lobatto = tents(lobattoOf(degree + 1), trapezoid(), degree, 1),
+                             both = withAcross(lobatto, gaussOf(degree + 1)),
+                             gauss = tents(gaussOf(degree + 1), trapezoid(), degree, 1);
+        const System system = plane("none", {0, 6, 12}, {0, 15, 12}, {"u"});
+        const State start = random(system, 1, 5);
+        const double dx = degree * 0.5, dy = 2.5 * dx,
+                     limit = longestPlaneStep(both, problemOf(system), start.x.data()),
+                     expected = 1 / std::hypot(1 / (alongX * dx), 1 / (alongY * dy));
+        const auto grown = [&](double share) {
+            const State end = run(system, both, start, share * limit, 300);
+            double most = 0;
+            for (const double each : end.x) most = std::max(most, std::abs(each));
+            return most;
+        };
+        qInfo("%.5f, known %.5f: %.1e, %.1e", limit, expected, grown(0.99), grown(1.01));
+        QVERIFY(std::abs(limit / expected - 1) < 5e-4);
+        QVERIFY(grown(0.99) < 1e3 && grown(1.01) > 1e6);
+        for (const bool isAlongX : {true, false}) {
+            const State wave = component_fields::startOf(
+                system, {{"u", isAlongX ? "exp(cos(pi*x/3))" : "exp(cos(2*pi*y/15))"}});
+            const auto distance = [&](const Discretization& d) {
+                const State a = run(system, both, wave, 0.05, 20), b = run(system, d, wave, 0.05, 20);
+                double most = 0;
+                for (std::size_t i = 0; i < a.x.size(); ++i) most = std::max(most, std::abs(a.x[i] - b.x[i]));
+                return most;
+            };
+            const double own = distance(isAlongX ? lobatto : gauss),
+                         other = distance(isAlongX ? gauss : lobatto);
+            qInfo("%s: %.1e, %.1e", isAlongX ? "x" : "y", own, other);
+            QVERIFY(own < 1e-12 && other > 1e-5);
+        }
+    }
     void anisotropy_data() {
         QTest::addColumn<Settings>("space");
         QTest::addColumn<Settings>("time");

@@ -23,7 +23,7 @@ namespace {
 struct Cells {
     const PlaneFieldProblem& problem;
     int degree;
-    Rule<double> space, time;
+    Rule<double> space, spaceY, time;
     double h;
     double couplingOfUV;  ///< W = (u^2 + v^2)^2/4 + coupling u v
 
@@ -56,13 +56,13 @@ struct Cells {
         const std::size_t nodes = problem.nodes(), m = problem.components();
         Row px, sx, py, sy;
         for (int i = 0; i < space.size(); ++i)
-            for (int j = 0; j < space.size(); ++j)
+            for (int j = 0; j < spaceY.size(); ++j)
                 for (int q = 0; q < time.size(); ++q) {
                     functions(space.c[static_cast<std::size_t>(i)], px, sx);
-                    functions(space.c[static_cast<std::size_t>(j)], py, sy);
+                    functions(spaceY.c[static_cast<std::size_t>(j)], py, sy);
                     const double tau = time.c[static_cast<std::size_t>(q)];
                     const double weight = h * dx * dy * space.b[static_cast<std::size_t>(i)] *
-                                          space.b[static_cast<std::size_t>(j)] *
+                                          spaceY.b[static_cast<std::size_t>(j)] *
                                           time.b[static_cast<std::size_t>(q)];
                     struct Point {
                         double u = 0, t = 0, x = 0, y = 0;
@@ -122,6 +122,12 @@ struct RulePair {
     const char* name;
     int degree;
     Settings space, time;
+    Settings across = {};  ///< without a type: as in space
+
+    Discretization discretization() const {
+        const Discretization d = tents(space, time, degree);
+        return across.type.empty() ? d : withAcross(d, across);
+    }
 };
 const std::vector<RulePair>& rulePairs() {
     static const std::vector<RulePair> pairs = {
@@ -131,7 +137,9 @@ const std::vector<RulePair>& rulePairs() {
         {"trapezoid x midpoint", 1, trapezoid(), midpoint()},
         {"degree 2, Lobatto 3 x trapezoid", 2, lobattoOf(3), trapezoid()},
         {"degree 2, Gauss 3 x midpoint", 2, gaussOf(3), midpoint()},
-        {"degree 3, Gauss 4 x trapezoid", 3, gaussOf(4), trapezoid()}};
+        {"degree 3, Gauss 4 x trapezoid", 3, gaussOf(4), trapezoid()},
+        {"trapezoid, Gauss 2 along y x trapezoid", 1, trapezoid(), trapezoid(), gauss2()},
+        {"degree 2, Gauss 4, Lobatto 3 along y x midpoint", 2, gaussOf(4), midpoint(), lobattoOf(3)}};
     return pairs;
 }
 
@@ -145,11 +153,12 @@ struct CoupledCase {
 
     explicit CoupledCase(int index) : CoupledCase(rulePairs()[static_cast<std::size_t>(index)]) {}
     explicit CoupledCase(const RulePair& pair)
-        : d(tents(pair.space, pair.time, pair.degree)),
+        : d(pair.discretization()),
           integrator(makeIntegrator(system, d, {0, h})),
           cells{problemOf(system),
                 pair.degree,
                 ruleIn(d.quadrature, "space", pair.degree),
+                ruleIn(d.quadrature, acrossPart, pair.degree),
                 ruleIn(d.quadrature, "time", 1),
                 h,
                 0.3} {}
@@ -261,14 +270,15 @@ private slots:
         const auto change = [&](const char* potential) {
             const System system = plane(potential, {0, 3, 12}, {0, 5, 12});
             const State start = random(system, 0.5, 3);
-            const Discretization d = tents(pair.space, pair.time, pair.degree);
+            const Discretization d = pair.discretization();
             State end = run(system, d, start, 0.04, 50);
             // u M v_t - v M u_t, of these elements and not of the trigonometric polynomial.
             const PlaneFieldProblem& problem = problemOf(system);
             const auto charge = [&](const State& state) {
                 const std::size_t n = problem.nodes();
                 ElementGrid grid({12, pair.degree, 3}, {12, pair.degree, 5},
-                                 ruleIn(d.quadrature, "space", pair.degree));
+                                 ruleIn(d.quadrature, "space", pair.degree),
+                                 ruleIn(d.quadrature, acrossPart, pair.degree));
                 std::vector<Row> modes(4, Row(n));
                 for (std::size_t k = 0; k < 4; ++k) grid.toModes(state.x.data() + k * n, modes[k].data());
                 double sum = 0;

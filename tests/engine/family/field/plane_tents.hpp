@@ -9,6 +9,8 @@
 
 #include "engine/family/scheme.hpp"
 #include "engine/model/plane_field/problem.hpp"
+#include "engine/quadrature/tensor.hpp"
+#include "engine/scene/read/reader.hpp"
 #include "tests/engine/family/field/fields.hpp"
 #include "tests/engine/family/spectral_field/component_fields.hpp"
 
@@ -22,6 +24,12 @@ using Row = std::vector<double>;
 
 inline Settings gaussOf(int nodes) { return rule("gauss", nodes); }
 inline Settings lobattoOf(int nodes) { return rule("lobatto", nodes); }
+
+/// Another rule along y.
+inline Discretization withAcross(Discretization d, const Settings& rule) {
+    d.quadrature.keys.emplace_back(acrossPart, settingsValue(rule));
+    return d;
+}
 
 inline State run(const System& system, const Discretization& d, State state, double step, int steps) {
     const auto integrator = makeIntegrator(system, d, {state.t, step});
