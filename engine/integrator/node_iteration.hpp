@@ -89,12 +89,14 @@ private:
     void startFromConstantForce(const T& t, const T* q);
     void findSources();
     bool beginsAtEnd(const T& t, const T* q) const;
-    bool solveExplicitly(const T& t, const T* q, StepReport& report);
+    bool solveExplicitly(const T& t, const T* q, const T* carryQ, StepReport& report);
     T largestChange(const T* q) const;
     CorrectionSize<T> measured(const T* q, const T* p) const;
     /// The sums that move q and p go through extended precision: rounded in double they were biased, and the
     /// energy of ten million steps drifted by 1e-12.
     using Accumulator = std::conditional_t<std::is_same_v<T, double>, long double, T>;
+    Accumulator displacement(int k) const;
+    static T split(const Accumulator& sum, T& carry);
     std::size_t at(int k, int i) const { return static_cast<std::size_t>(k * stride_ + i); }
 
     Mechanics<T> mechanics_;
@@ -120,9 +122,8 @@ private:
     void (*sweep_)(const Sweep<T>&) = nullptr;
     bool hasForces_ = false;
     /// How many nodes see no other, the first ones, where all others see these alone; 0: it is not explicit.
-    /// Coefficients that are a unit or two of rounding, as N_ij - N_ji = s_i - s_j holds to the last bit, do
-    /// not count.
     int sources_ = 0;
+    bool endsAtNode_ = false;  ///< it is, and the step ends where its last node is
     /// The last node of an explicit step.
     struct {
         Array place, force;

@@ -139,7 +139,12 @@ void NodeIteration<T>::setStep(const T& step) {
         toEnd_[at(0, i)] = velocityToEnd_ - slope_[at(0, i)];
         if (i < n_) weight_[at(0, i)] = step * made_.weight(i);
     }
-    const auto N = [&](int i, int j) { return round(T(made_.N(i, j) * ratio)); };
+    // Round-off in the place of a zero would have an explicit step iterate: a node sees another, or not.
+    const T unseen = 4 * std::numeric_limits<T>::epsilon() * abs(velocityToEnd_);
+    const auto N = [&](int i, int j) {  // i >= j
+        const T seen = round(T(made_.N(i, j) * ratio)), between = slope_[at(0, i)] - slope_[at(0, j)];
+        return abs(seen) <= unseen ? T(0) : abs(T(seen - between)) <= unseen ? between : seen;
+    };
     for (int j = 0; j < n_; ++j)
         for (int i = 0; i < stride_; ++i) {
             const int node = std::min(i, n_ - 1);
@@ -151,9 +156,7 @@ void NodeIteration<T>::setStep(const T& step) {
 
 template <class T>
 void NodeIteration<T>::findSources() {
-    using std::abs;
-    const T rounding = 4 * std::numeric_limits<T>::epsilon() * abs(velocityToEnd_);
-    const auto sees = [&](int i, int j) { return abs(N_[at(j, i)]) > rounding; };
+    const auto sees = [&](int i, int j) { return N_[at(j, i)] != T(0); };
     sources_ = 0;
     for (int i = 0; i < n_ && sources_ == i; ++i) {
         bool seesNone = true;
@@ -163,6 +166,8 @@ void NodeIteration<T>::findSources() {
     for (int i = sources_; i < n_; ++i)
         for (int j = sources_; j < n_; ++j)
             if (sees(i, j)) sources_ = 0;
+    endsAtNode_ = sources_ > 0 && node_[at(0, n_ - 1)] == T(1);
+    for (int i = sources_; i < n_; ++i) endsAtNode_ = endsAtNode_ && toEnd_[at(0, i)] == T(0);
 }
 
 /// Times of the nodes, and where they would be without a force.
@@ -234,7 +239,7 @@ Outcome NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* car
                                 int maxIterations, const std::stop_token& stop, StepReport& report) {
     using Verdict = typename FixedPointPolicy<T>::Verdict;
     place(t, p, carryQ, carryP);
-    if (sources_ > 0 && solveExplicitly(t, q, report)) return Outcome::converged;
+    if (sources_ > 0 && solveExplicitly(t, q, carryQ, report)) return Outcome::converged;
     FixedPointPolicy<T> policy(tolerance_);
     Sweep<T> s{d_,        n_,        stride_,         start_.data(),       base_.data(),
                F_.data(), nullptr,   impulse_.data(), inverseMass_.data(), q,
@@ -292,7 +297,7 @@ bool NodeIteration<T>::beginsAtEnd(const T& t, const T* q) const {
 /// evaluated one by one. False where rounding moves a node after all, or a force is not finite: the iteration
 /// says what becomes of that.
 template <class T>
-bool NodeIteration<T>::solveExplicitly(const T& t, const T* q, StepReport& report) {
+bool NodeIteration<T>::solveExplicitly(const T& t, const T* q, const T* carryQ, StepReport& report) {
     using std::abs;
     const bool isOnward = std::exchange(hasForces_, false), isShared = beginsAtEnd(t, q);
     const auto moved = [&](const Array& by, const Array& forces, int nodes, int k, int i) {
@@ -306,6 +311,13 @@ bool NodeIteration<T>::solveExplicitly(const T& t, const T* q, StepReport& repor
     const auto solveNodes = [&](int first, int last, bool isKnown) {
         for (int k = 0; k < d_; ++k)
             for (int i = first; i < last; ++i) Q_[at(k, i)] = q[k] + moved(N_, impulse_, first, k, i);
+        // Rounded as the end of the step will be, so that the next one begins there to the last bit.
+        if (endsAtNode_ && last == n_)
+            for (int k = 0; k < d_; ++k) {
+                T carry = carryQ[k];
+                const T increment = split(displacement(k), carry);
+                Q_[at(k, n_ - 1)] = q[k] + (increment + carry);
+            }
         if (isKnown) {
             for (int k = 0; k < d_; ++k) F_[at(k, 0)] = end_.force[static_cast<std::size_t>(k)];
         } else {
@@ -317,12 +329,16 @@ bool NodeIteration<T>::solveExplicitly(const T& t, const T* q, StepReport& repor
     };
     solveNodes(0, sources_, isShared);
     solveNodes(sources_, n_, false);
+    const T roundOff = 4 * std::numeric_limits<T>::epsilon();
     bool isThere = true;
     for (int k = 0; k < d_; ++k) {
         T change(0), scale(0);
         for (int i = 0; i < n_; ++i) {
             const T z = moved(N_, impulse_, n_, k, i);
-            isThere = isThere && q[k] + z == Q_[at(k, i)];
+            const T place = Q_[at(k, i)];
+            isThere = isThere && (endsAtNode_ && i == n_ - 1
+                                      ? abs(T(q[k] + z - place)) <= roundOff * (abs(q[k]) + abs(z))
+                                      : q[k] + z == place);
             change = std::max(change, T(abs(z - Z_[at(k, i)])));
             scale = std::max(scale, T(abs(z)));
             Z_[at(k, i)] = z;
@@ -343,26 +359,34 @@ bool NodeIteration<T>::solveExplicitly(const T& t, const T* q, StepReport& repor
 
 template <class T>
 void NodeIteration<T>::increments(T* dq, T* dp, T* carryQ, T* carryP) const {
-    const auto split = [](const Accumulator& sum, T& main, T& carry) {
-        main = static_cast<T>(sum);
-        carry += static_cast<T>(sum - Accumulator(main));
-    };
     for (int k = 0; k < d_; ++k) {
-        const auto c = static_cast<std::size_t>(k);
-        Accumulator kicks[2] = {Accumulator(0), Accumulator(0)},
-                    impulses[2] = {Accumulator(0), Accumulator(0)};  // two, as each waits for its last sum
+        Accumulator impulses[2] = {Accumulator(0), Accumulator(0)};  // two, as each waits for its last sum
         for (int i = 0; i < n_; i += 2)                              // beyond the nodes impulses are 0
-            for (int l = 0; l < 2; ++l) {
-                kicks[l] += Accumulator(toEnd_[at(0, i + l)]) * Accumulator(impulse_[at(k, i + l)]);
-                impulses[l] += Accumulator(impulse_[at(k, i + l)]);
-            }
-        const Accumulator kick = kicks[0] + kicks[1], impulse = impulses[0] + impulses[1];
-        const Accumulator drift(velocityToEnd_);
-        split(drift * Accumulator(v0_[c]) +
-                  (kick * Accumulator(inverseMass_[c]) + drift * Accumulator(lost_[c])),
-              dq[k], carryQ[k]);
-        split(impulse, dp[k], carryP[k]);
+            for (int l = 0; l < 2; ++l) impulses[l] += Accumulator(impulse_[at(k, i + l)]);
+        dq[k] = split(displacement(k), carryQ[k]);
+        dp[k] = split(impulses[0] + impulses[1], carryP[k]);
     }
+}
+
+/// q_1 - q_0 of a coordinate.
+template <class T>
+typename NodeIteration<T>::Accumulator NodeIteration<T>::displacement(int k) const {
+    const auto c = static_cast<std::size_t>(k);
+    Accumulator kicks[2] = {Accumulator(0), Accumulator(0)};
+    for (int i = 0; i < n_; i += 2)
+        for (int l = 0; l < 2; ++l)
+            kicks[l] += Accumulator(toEnd_[at(0, i + l)]) * Accumulator(impulse_[at(k, i + l)]);
+    const Accumulator drift(velocityToEnd_);
+    return drift * Accumulator(v0_[c]) +
+           ((kicks[0] + kicks[1]) * Accumulator(inverseMass_[c]) + drift * Accumulator(lost_[c]));
+}
+
+/// A sum rounded; what that takes from it is added to the carry.
+template <class T>
+T NodeIteration<T>::split(const Accumulator& sum, T& carry) {
+    const T main = static_cast<T>(sum);
+    carry += static_cast<T>(sum - Accumulator(main));
+    return main;
 }
 
 template <class T>

@@ -17,7 +17,10 @@
 ///
 /// This alone does not end an iteration, since a light body beside a heavy one may be below it and converge
 /// all the same: such a correction is *buried*, and counts as round-off once it has stopped shrinking
-/// (NewtonPolicy, FixedPointPolicy).
+/// (NewtonPolicy, FixedPointPolicy). It may shrink for as many sweeps as there are coordinates where each
+/// acts on its neighbours alone: far from a place that moves, a chain has increments of 1e-20, 1e-40, .. of
+/// those there, and every sweep finds the next of them. Such corrections would be round-off with the largest
+/// mass of all, sqrt(max m_l) e_k <= epsilon max_l (..): they are *negligible*, and are not waited for.
 ///
 /// T: scalar of the step. epsilon: unit of its last place.
 #pragma once
@@ -60,7 +63,8 @@ struct CoordinateCorrection {
 template <class T>
 struct CorrectionSize {
     T size = T(0);
-    T buried = T(0);  ///< the largest relative correction of a buried coordinate
+    T buried = T(0);            ///< the largest relative correction of a buried coordinate
+    bool areNegligible = true;  ///< all buried ones
 };
 
 /// `of(k)` is the CoordinateCorrection of coordinate k. Corrections of a unit in the last place of the
@@ -70,11 +74,12 @@ CorrectionSize<T> measureCorrection(int coordinates, const Of& of) {
     using std::abs;
     using std::sqrt;
     const T mostRoundOff = T(100) * std::numeric_limits<T>::epsilon();
-    T common(0);
+    T common(0), heaviest(0);
     for (int k = 0; k < coordinates; ++k) {
         const CoordinateCorrection<T> c = of(k);
         const T root = sqrt(T(abs(c.mass)));
         if (!(root > T(0))) continue;
+        heaviest = std::max(heaviest, root);
         common = std::max({common, T(root * c.increments), T(root * abs(c.value)), T(abs(c.impulse) / root)});
     }
     CorrectionSize<T> all;
@@ -85,17 +90,21 @@ CorrectionSize<T> measureCorrection(int coordinates, const Of& of) {
                               root * c.change <= mostRoundOff * common;
         T& worst = isBuried ? all.buried : all.size;
         worst = std::max(worst, own);
+        if (isBuried && !(heaviest * c.change <= std::numeric_limits<T>::epsilon() * common))
+            all.areNegligible = false;
     }
     return all;
 }
 
 /// Whether buried coordinates are at round-off: they have not halved in five sweeps of a fixed-point
-/// iteration, which an iteration that still contracts does.
+/// iteration, which an iteration that still contracts does; or have all been negligible in three of them,
+/// after which a light coordinate of an iteration that contracts is at round-off too.
 template <class T>
 class BuriedWatch {
 public:
-    bool hasSettled(const T& buried) {
-        constexpr int patience = 5;
+    bool hasSettled(const CorrectionSize<T>& correction) {
+        constexpr int patience = 5, whileNegligible = 3;
+        const T& buried = correction.buried;
         if (!(buried > T(0))) {  // nothing is buried: what comes later is measured afresh
             *this = BuriedWatch();
             return true;
@@ -103,12 +112,13 @@ public:
         const bool hasHalved = 2 * buried < least_;
         sinceHalved_ = hasHalved ? 0 : sinceHalved_ + 1;
         if (hasHalved) least_ = buried;
-        return sinceHalved_ >= patience;
+        if (correction.areNegligible) ++negligible_;
+        return sinceHalved_ >= patience || negligible_ >= whileNegligible;
     }
 
 private:
     T least_ = std::numeric_limits<T>::infinity();
-    int sinceHalved_ = 0;
+    int sinceHalved_ = 0, negligible_ = 0;
 };
 
 }  // namespace extremal

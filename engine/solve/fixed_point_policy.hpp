@@ -48,7 +48,7 @@ public:
 private:
     /// The verdicts above do not see buried coordinates, for which it may go on.
     Verdict judgeApart(const CorrectionSize<T>& correction) {
-        const bool isSettled = buried_.hasSettled(correction.buried);
+        const bool isSettled = buried_.hasSettled(correction);
         const Verdict verdict = judge(correction.size);
         if (verdict != Verdict::converged || correction.buried <= std::max(tolerance_, epsilon))
             return verdict;

@@ -151,7 +151,7 @@ private:
             if (hasBuried) {
                 const CorrectionSize<double> apart = measured(t);
                 size = apart.size;
-                isSettled = buried.hasSettled(apart.buried) || apart.buried <= epsilon;
+                isSettled = buried.hasSettled(apart) || apart.buried <= epsilon;
             }
             if (!(size < infinity)) return Outcome::notFinite;
             // At round-off; or so close that what is left to come, by the contraction seen, is below it; or

@@ -40,7 +40,8 @@ private slots:
     /// Of 100 steps. Seen failing: 599 to 601 of linear functions under the trapezoidal rule, which were
     /// iterated, 400 of the Runge-Kutta method, and 200 of Stoermer-Verlet in forces that depend on time.
     /// Where there is a range, the end of a step and the start of the next differ in their last bits at
-    /// times.
+    /// times. Of linear functions they did too (101 to 190), as the last node was rounded otherwise than the
+    /// end of the step.
     void explicitSchemesEvaluateEachForceOnce_data() {
         QTest::addColumn<QString>("problem");
         QTest::addColumn<QString>("scheme");
@@ -53,7 +54,7 @@ private slots:
             const bool isForced = problem == forced;
             for (const char* scheme : {"trapezoidal", "stormer-verlet-pair", "galerkin-lobatto-1",
                                        "lobatto-iiia-iiib-2", "spectral-clenshaw-curtis-1"})
-                row(problem, QString("\"scheme\":\"%1\"").arg(scheme), 101, 190);
+                row(problem, QString("\"scheme\":\"%1\"").arg(scheme), 101, isForced ? 190 : 101);
             const auto baseline = [&](const char* id, int count, int most) {
                 row(problem, QString("\"baseline\":\"%1\"").arg(id), count, isForced ? most : count);
             };
@@ -86,6 +87,27 @@ private slots:
         QCOMPARE(summary.steps, 100LL);
         QVERIFY2(summary.cost.evaluations >= least && summary.cost.evaluations <= most,
                  qPrintable(QString::number(summary.cost.evaluations)));
+    }
+    /// With many coordinates one of them in another place was enough: 723 of 20 masses, 940 of 1000.
+    void manyCoordinatesDoSo() {
+        QString names, kinetic, potential = "-x1^2/2 - x20^2/2";
+        for (int i = 1; i <= 20; ++i) {
+            names += QString(R"j(%1"x%2")j").arg(i > 1 ? "," : "").arg(i);
+            kinetic += QString(i > 1 ? " + x%1_t^2/2" : "x%1_t^2/2").arg(i);
+            if (i > 1) potential += QString(" - (x%1-x%2)^2/2 - (x%1-x%2)^4/4").arg(i).arg(i - 1);
+        }
+        QStringList q;
+        for (int i = 1; i <= 20; ++i) q += QString::number(0.3 * std::sin(1.3 * i * i));
+        const QString problem =
+            QString(R"j("model":{"type":"lagrangian","coordinates":[%1],"lagrangian":"%2"},
+            "initial":{"q":[%3]})j")
+                .arg(names, kinetic + potential, q.join(','));
+        for (const char* scheme : {"trapezoidal", "stormer-verlet-pair"}) {
+            const ReadScene read =
+                sceneOf(problem.toStdString(), "\"scheme\":\"" + std::string(scheme) + "\"");
+            QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
+            QCOMPARE(run(read.scene).schemes.at(0)->summary.cost.evaluations, 101LL);
+        }
     }
     /// Against integrators that know of no step before.
     void sharingKeepsTheBits_data() { explicitSchemesEvaluateEachForceOnce_data(); }
