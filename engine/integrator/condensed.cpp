@@ -26,11 +26,12 @@ template <int D>
 class Condensed final : public Integrator, public SharesForce, public TransposedStep {
 public:
     Condensed(const Mechanics<double>& mechanics, TablesOfStep tables, double step, SolverPolicy policy,
-              std::vector<LagrangianTerm<double>> parts)
+              std::vector<LagrangianTerm<double>> parts, const LagrangianEntries* entries)
         : mechanics_(mechanics),
           tables_(std::move(tables)),
           policy_(policy),
           parts_(std::move(parts)),
+          entries_(entries ? std::optional(*entries) : std::nullopt),
           h_(step),
           step_(own()) {}
 
@@ -114,13 +115,14 @@ private:
         periods_ = std::abs(tables.front().frequency) / (2 * std::numbers::pi);
         changes_ = periods_ > 0 || std::any_of(tables.begin(), tables.end(),
                                                [](const Table<double>& t) { return t.dependsOnStep; });
-        return {mechanics_, std::move(tables), h_, policy_, parts_};
+        return {mechanics_, std::move(tables), h_, policy_, parts_, entries_ ? &*entries_ : nullptr};
     }
 
     Mechanics<double> mechanics_;
     TablesOfStep tables_;
     SolverPolicy policy_;
     std::vector<LagrangianTerm<double>> parts_;
+    std::optional<LagrangianEntries> entries_;
     double h_, periods_ = 0;
     bool changes_ = false;  ///< the functions are others for another step
     double start_ = 0;      ///< of the last step
@@ -148,10 +150,11 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
 
 std::unique_ptr<Integrator> makeCondensed(const Mechanics<double>& mechanics, TablesOfStep tables,
                                           double step, const SolverPolicy& policy,
-                                          std::vector<LagrangianTerm<double>> parts) {
+                                          std::vector<LagrangianTerm<double>> parts,
+                                          const LagrangianEntries* entries) {
     return withDimension(mechanics.dimension, [&](auto d) -> std::unique_ptr<Integrator> {
         return std::make_unique<Condensed<decltype(d)::value>>(mechanics, std::move(tables), step, policy,
-                                                               std::move(parts));
+                                                               std::move(parts), entries);
     });
 }
 

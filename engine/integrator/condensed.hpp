@@ -20,9 +20,10 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system);
 
 /// One table for all coordinates or one for each, for a step size.
 using TablesOfStep = std::function<std::vector<Table<double>>(double step)>;
-/// `parts`: what the nodes of tables with parts are for.
+/// `parts`: what the nodes of tables with parts are for. `entries`: of the Lagrangian, where they are known.
 std::unique_ptr<Integrator> makeCondensed(const Mechanics<double>& mechanics, TablesOfStep tables,
                                           double step, const SolverPolicy& policy,
-                                          std::vector<LagrangianTerm<double>> parts = {});
+                                          std::vector<LagrangianTerm<double>> parts = {},
+                                          const LagrangianEntries* entries = nullptr);
 
 }  // namespace extremal

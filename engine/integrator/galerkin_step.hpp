@@ -37,9 +37,11 @@
 /// Every coordinate k may have a table of its own, with its own functions and m_k of them, on the same nodes:
 /// then Y_a and R_a above are those of one coordinate. A separable Lagrangian on one slow table is solved for
 /// all nodes together (node_iteration.hpp), and so is another one with as many nodes as unknowns
-/// (velocity_iteration.hpp); where that is slow, by Newton's method.
+/// (velocity_iteration.hpp); where that is slow, by Newton's method. Of many coordinates that do not all act
+/// on each other its Jacobian is sparse (sparse_jacobian.hpp).
 ///
-/// T: scalar; D: dimension d at compile time or Eigen::Dynamic. All buffers are allocated in the constructor.
+/// T: scalar; D: dimension d at compile time or Eigen::Dynamic. Buffers are allocated in the constructor, and
+/// the matrices of Newton's method of many coordinates where it is first needed.
 /// Array shapes: Y is coordinate by coordinate, entry a of coordinate k at offset(k) + a; node quantities are
 /// n x d.
 #pragma once
@@ -58,6 +60,7 @@
 #include "engine/core/text/archive.hpp"
 #include "engine/integrator/force_defect.hpp"
 #include "engine/integrator/node_iteration.hpp"
+#include "engine/integrator/sparse_jacobian.hpp"
 #include "engine/integrator/variation/transposed_step.hpp"
 #include "engine/integrator/velocity_iteration.hpp"
 #include "engine/model/mechanics.hpp"
@@ -81,9 +84,10 @@ public:
     using Columns = Eigen::Matrix<T, Eigen::Dynamic, D>;
 
     /// One table for all coordinates, or one for each; these share nodes and weights. `parts`: what the nodes
-    /// of a table with parts are for; empty: all of them for the whole Lagrangian.
+    /// of a table with parts are for; empty: all of them for the whole Lagrangian. `entries`: null where they
+    /// are not known.
     GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> tables, T step, SolverPolicy policy,
-                 std::vector<LagrangianTerm<T>> parts = {});
+                 std::vector<LagrangianTerm<T>> parts = {}, const LagrangianEntries* entries = nullptr);
     GalerkinStep(Mechanics<T> mechanics, Table<T> table, T step, SolverPolicy policy)
         : GalerkinStep(std::move(mechanics), std::vector<Table<T>>{std::move(table)}, step, policy) {}
 
@@ -185,6 +189,7 @@ private:
             },
             fixedPointSolver_);
     }
+    void roomForNewton();
     void scaleToStep();
     void placeNodes();
     void evaluateGradients(const T& t);
@@ -195,6 +200,7 @@ private:
     void assembleBlock(int k, int l);
     void applyHessian(int k, int l, bool isSlope);
     bool assembleJacobian(const T& t);
+    bool assembleSparse(const T& t);
     bool factoriseJacobian();
     bool startFrom(const T& t, StartingValue start);
     bool startVelocity(const T& t);
@@ -257,8 +263,9 @@ private:
     Square applied_;               ///< (i, c): a row of the Hessian applied to function c
     Square jacobian_;
     Eigen::PartialPivLU<Square> lu_;
-    bool hasPrevious_ = false;  ///< Y_ of Newton's last step can be extrapolated
-    bool continues_ = true;     ///< so can those of all steps of its tables
+    std::optional<SparseJacobian> sparse_;  ///< in place of these three, but for tangent maps
+    bool hasPrevious_ = false;              ///< Y_ of Newton's last step can be extrapolated
+    bool continues_ = true;                 ///< so can those of all steps of its tables
     /// Where it applies; else Newton's method alone.
     std::variant<std::monostate, NodeIteration<T>, VelocityIteration<T>> fixedPointSolver_;
     bool hasLeftDomain_ = false;            ///< Newton's method did, in this step: L has an edge nearby

@@ -21,7 +21,8 @@
 namespace extremal {
 template <class T, int D>
 GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> tables, T step,
-                                 SolverPolicy policy, std::vector<LagrangianTerm<T>> parts)
+                                 SolverPolicy policy, std::vector<LagrangianTerm<T>> parts,
+                                 const LagrangianEntries* entries)
     : mechanics_(std::move(mechanics)),
       parts_(std::move(parts)),
       tables_(std::move(tables)),
@@ -65,17 +66,11 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     gradient_ = Square::Zero(rows(), 2 * d());
     ownCoefficients_ = Square::Zero(m(0), d());
     ownForces_ = Square::Zero(n(), d());
-    mass_ = Square::Zero(d(), d());
     for (Vector* v : {&q0_, &p0_, &v0_, &a0_, &dq_, &dp_, &carryQ_, &carryP_, &lastQ_, &lastP_, &placeQ_,
                       &placeV_, &eta_, &rate_, &byQ_, &byV_})
         *v = Vector::Zero(d());
     jetGradient_ = Flat::Zero(2 * d());
-    jetHessian_ = Flat::Zero(4 * d() * d());
-    hessians_ = Square::Zero(rows(), 4 * d() * d());
-    isPresent_.assign(static_cast<std::size_t>(4 * d() * d()), false);
     applied_ = Square::Zero(rows(), widest);
-    jacobian_ = Square::Zero(size, size);
-    lu_ = Eigen::PartialPivLU<Square>(size);
     if (parts_.empty() && tables_.size() == 1 && tables_.front().frequency == T(0)) {
         const Table<T>& own = tables_.front();
         const bool isAsked = policy_.method == SolverMethod::fixedPoint;
@@ -87,6 +82,27 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     if (tables_.front().frequency == T(0)) defect_.emplace(mechanics_, tables_, parts_);
     motion_ = Flat::Zero(8 * d());
     impulse_.assign(static_cast<std::size_t>(d()), Accumulator(0));
+    if (std::is_same_v<T, double> && D == Eigen::Dynamic && entries && parts_.empty() && !isVectorised_) {
+        std::vector<int> unknowns;
+        for (int k = 0; k < d(); ++k) unknowns.push_back(m(k));
+        if (SparseJacobian sparse(*entries, n(), unknowns); sparse.isWorthwhile())
+            sparse_ = std::move(sparse);
+    }
+    constexpr int few = 64;
+    if (!sparse_ && (d() <= few || !hasFixedPoint())) roomForNewton();
+}
+
+/// Of many coordinates these matrices are made where they are first needed: a fixed point may do without.
+template <class T, int D>
+void GalerkinStep<T, D>::roomForNewton() {
+    if (jacobian_.size() > 0) return;
+    const Eigen::Index size = Y_.size();
+    mass_ = Square::Zero(d(), d());
+    jetHessian_ = Flat::Zero(4 * d() * d());
+    hessians_ = Square::Zero(rows(), 4 * d() * d());
+    isPresent_.assign(static_cast<std::size_t>(4 * d() * d()), false);
+    jacobian_ = Square::Zero(size, size);
+    lu_ = Eigen::PartialPivLU<Square>(size);
 }
 
 /// Slopes by time and weights by h.

@@ -35,8 +35,17 @@ void GalerkinStep<T, D>::residual() {
 template <class T, int D>
 bool GalerkinStep<T, D>::startVelocity(const T& t) {
     if (!mechanics_.velocity(mechanics_.model.get(), t, q0_.data(), p0_.data(), v0_.data())) return false;
+    if (sparse_) {  // its matrix of masses is not solved for the sake of a guess
+        a0_.setZero();
+        if (!mechanics_.isSeparable) return true;
+        mechanics_.force(mechanics_.model.get(), t, q0_.data(), a0_.data());
+        ++report_.cost.evaluations;
+        for (int k = 0; k < d(); ++k) a0_(k) /= mechanics_.masses[k];
+        return a0_.allFinite();
+    }
     T value;
     const int dim = d();
+    roomForNewton();
     mechanics_.jet(mechanics_.model.get(), t, q0_.data(), v0_.data(), &value, jetGradient_.data(),
                    jetHessian_.data());
     ++report_.cost.evaluations;
@@ -140,7 +149,13 @@ bool GalerkinStep<T, D>::shortenIntoDomain(const T& t) {
 /// Solves J delta = R, Newton's correction being -delta; returns its size relative to the unknowns.
 template <class T, int D>
 T GalerkinStep<T, D>::correction() {
-    delta_ = lu_.solve(R_);
+    if constexpr (std::is_same_v<T, double>) {
+        if (sparse_) {
+            delta_ = R_;
+            sparse_->solve(delta_.data());
+        }
+    }
+    if (!sparse_) delta_ = lu_.solve(R_);
     ++report_.cost.linearSolves;
     T worst(0);
     for (int k = 0; k < d(); ++k) {
@@ -154,6 +169,7 @@ T GalerkinStep<T, D>::correction() {
 /// The largest L_vv(k, k) of the nodes, where the Jacobian was assembled last.
 template <class T, int D>
 T GalerkinStep<T, D>::massAt(int k) const {
+    if (sparse_) return T(sparse_->massAt(k));
     return hessians_.col((d() + k) * 2 * d() + d() + k).head(n()).cwiseAbs().maxCoeff();
 }
 

@@ -118,6 +118,7 @@ typename GalerkinStep<T, D>::Accumulator GalerkinStep<T, D>::actionGradient(int 
 template <class T, int D>
 bool GalerkinStep<T, D>::evaluateHessians(const T& t) {
     const int size = 4 * d() * d();
+    roomForNewton();
     report_.cost.evaluations += n();
     if (isVectorised_ && mechanics_.hessians) {
         times_ = node_ * h_;
@@ -241,7 +242,26 @@ void GalerkinStep<T, D>::assembleNode(int i) {
 /// dR/dY at the present Y and its factorisation.
 template <class T, int D>
 bool GalerkinStep<T, D>::assembleJacobian(const T& t) {
-    return evaluateHessians(t) && factoriseJacobian();
+    return sparse_ ? assembleSparse(t) : evaluateHessians(t) && factoriseJacobian();
+}
+
+template <class T, int D>
+bool GalerkinStep<T, D>::assembleSparse(const T& t) {
+    if constexpr (std::is_same_v<T, double>) {
+        report_.cost.evaluations += n();
+        ++report_.cost.linearSolves;
+        work::spend(sparse_->work());
+        for (int i = 0; i < n(); ++i) {
+            placeQ_ = nodeQ_.row(i).transpose();
+            placeV_ = nodeV_.row(i).transpose();
+            sparse_->evaluate(i, t + node_(i) * h_, placeQ_.data(), placeV_.data());
+        }
+        const auto functionsOf = [&](int k) {
+            return SparseJacobian::Functions{functions(k).value.data(), functions(k).slope.data()};
+        };
+        return sparse_->factorise(weight_.data(), functionsOf) == Outcome::converged;
+    }
+    return false;
 }
 
 /// dR/dY with the Hessians at hand.

@@ -39,7 +39,7 @@ NodePull::Node GalerkinStep<T, D>::nodeAt(const T& t, int i) requires std::is_sa
 template <class T, int D>
 bool GalerkinStep<T, D>::linearise(const T& t) {
     placeSolution();
-    return assembleJacobian(t);
+    return evaluateHessians(t) && factoriseJacobian();
 }
 
 /// dR into R_, without the part of p_0, and the change of the impulse h sum_i b_i L_q(i); dY = -delta_ where
@@ -99,6 +99,7 @@ bool GalerkinStep<T, D>::applyTangent(const T& t, T* W, int columns) {
 /// The Hessians at the nodes by `pull`, which needs them as well.
 template <class T, int D>
 bool GalerkinStep<T, D>::takeHessians(const T& t, NodePull& pull) {
+    roomForNewton();
     if constexpr (std::is_same_v<T, double>)
         for (int i = 0; i < n(); ++i) {
             pull.hessian(nodeAt(t, i), jetHessian_.data());

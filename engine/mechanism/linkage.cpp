@@ -13,11 +13,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Blocks with less arithmetic than this part of what a full matrix takes are faster (bench.chain_bench): of
-/// few unknowns each block costs something besides; three bodies in gimbals with 81, and 0.31 of the
-/// arithmetic, take a sixth of the time.
-double worthwhile(double unknowns) { return unknowns > 30 ? 0.5 : 0.25; }
-
 /// Constraints to blocks, by augmenting paths: each to one of those that it holds, and none to more than it
 /// has room for.
 class Assignment {
@@ -156,9 +151,6 @@ BlockLu Linkage::solver(int m) const {
     return {std::move(unknowns), couplings_, border_};
 }
 
-bool Linkage::isWorthwhile() const {
-    const double size = d_ + n_;
-    return solver(1).work() < worthwhile(size) * size * size * size / 3;
-}
+bool Linkage::isWorthwhile() const { return solver(1).isWorthwhile(); }
 
 }  // namespace extremal

@@ -68,8 +68,8 @@ public:
     void solve(Vector& x) const override { lu_.solve(x.data()); }
     void solveTransposed(Vector& x) const override { lu_.solveTransposed(x.data()); }
     std::string about() const override {
-        return std::to_string(lu_.blocks()) + " blocks of up to " + std::to_string(lu_.largest()) +
-               " unknowns";
+        return std::to_string(lu_.blocks()) + " blocks of " +
+               (lu_.largest() == 1 ? "one unknown" : "up to " + std::to_string(lu_.largest()) + " unknowns");
     }
 
 private:

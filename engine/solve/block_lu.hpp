@@ -45,6 +45,8 @@ public:
     std::size_t largest() const;
     /// Multiplications of factorise().
     double work() const { return work_; }
+    /// Whether it is faster than the factorisation of a full matrix.
+    bool isWorthwhile() const;
 
 private:
     void gather(const double* x) const;

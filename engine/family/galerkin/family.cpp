@@ -242,7 +242,8 @@ Family galerkin() {
         const auto tables = [space = d.space, quadrature = d.quadrature](double h) {
             return std::vector{tableOf(withStep(space, h), quadrature)};
         };
-        return makeCondensed(system.mechanics(), tables, step, solverPolicy(d.solver, system));
+        return makeCondensed(system.mechanics(), tables, step, solverPolicy(d.solver, system), {},
+                             system.parts.find<LagrangianEntries>());
     };
     f.parts.set(galerkin::keptTest());
     f.parts.set(SolverMethods{{"newton", "fixed-point"}});

@@ -27,10 +27,8 @@ System makeLagrangian(const Settings& given) {
     for (const std::string& name : formula.coordinates)
         s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
     s.parts.set(std::move(made.mechanics));
-    if (auto constraint = typed::constraintOf(settings, formula)) {
-        s.parts.set(*std::move(constraint));
-        s.parts.set(typed::entriesOf(s.mechanics()));
-    }
+    s.parts.set(typed::entriesOf(s.mechanics()));
+    if (auto constraint = typed::constraintOf(settings, formula)) s.parts.set(*std::move(constraint));
     if (auto force = typed::forceOf(settings, formula)) s.parts.set(*std::move(force));
     if (auto rolling = typed::rollingOf(settings, formula)) s.parts.set(*std::move(rolling));
     if (auto wall = typed::wallOf(settings, formula)) {

@@ -12,8 +12,12 @@ namespace {
 /// The symbols below a node.
 std::vector<int> symbolsBelow(const Graph& graph, int root, int inputs) {
     std::vector<int> found;
-    for (int symbol = 0; symbol < inputs; ++symbol)
-        if (graph.dependsOn({root}, [symbol](int s) { return s == symbol; })) found.push_back(symbol);
+    graph.dependsOn({root}, [&](int symbol) {
+        if (symbol < inputs) found.push_back(symbol);
+        return false;  // go on to the others
+    });
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
 }
 
