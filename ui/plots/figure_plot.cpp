@@ -185,8 +185,9 @@ void FigurePlot::prepare(QSize size) {
         if (s.figure.axes == AxisStyle::none) axis->setBasePen(Qt::NoPen);
     }
     const QFontMetricsF titles(x.labelFont());
-    const QString title = QString::fromStdString(s.figure.y.title),
-                  xTitle = QString::fromStdString(s.figure.x.title);
+    const bool isEmpty = !s.figure.message.empty();  // no ticks, and no room beside them
+    const QString title = isEmpty ? QString() : QString::fromStdString(s.figure.y.title),
+                  xTitle = isEmpty ? QString() : QString::fromStdString(s.figure.x.title);
     x.setLabel(titles.elidedText(plainTitle(xTitle), Qt::ElideRight, size.width() - 16));
     if (hasOwnParts(xTitle)) x.setLabelColor(Qt::transparent);  // drawn by its own layer
     if (hasOwnParts(title)) y.setLabelColor(Qt::transparent);

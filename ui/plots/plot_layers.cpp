@@ -373,7 +373,8 @@ void MarksLayer::draw(QCPPainter* painter) {
     for (const auto& [axis, title] : {std::pair{shared_.plot.xAxis, &shared_.figure.x.title},
                                       std::pair{shared_.plot.yAxis, &shared_.figure.y.title}})
         if (const QString text = QString::fromStdString(*title);
-            hasOwnParts(text) && !(axis == shared_.plot.yAxis && shared_.isTitleAbove))
+            shared_.figure.message.empty() && hasOwnParts(text) &&
+            !(axis == shared_.plot.yAxis && shared_.isTitleAbove))
             drawAxisTitle(*painter, *axis, text);
     drawEvents(*painter, map);
     drawFailures(*painter, map);
