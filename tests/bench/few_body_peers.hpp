@@ -3,17 +3,23 @@
 /// integrator on a right-hand side by hand, against Galerkin schemes on the system as a scene has it.
 ///
 /// P8   Henon-Heiles at E = 1/12, the place at t = 100
+/// P9   chain of 64 masses with hardening springs between walls, all places at t = 100
+/// P10  outer solar system, all places after 10,000 years, in astronomical units
 #pragma once
 
 #include <boost/numeric/odeint.hpp>
 
 #include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "engine/integrator/composition.hpp"
 #include "tests/bench/peer_table.hpp"
+#include "tests/bench/planet_peers.hpp"
 #include "tests/bench/scheme_makers.hpp"
 #include "tests/bench/taylor.hpp"
 
@@ -21,7 +27,7 @@ namespace extremal::bench {
 
 namespace odeint = boost::numeric::odeint;
 
-/// x'' = f(x) with unit masses, as a system and by hand.
+/// M x'' = f(x), as a system and by hand.
 template <std::size_t d>
 struct FewBodies {
     std::string name;
@@ -29,24 +35,36 @@ struct FewBodies {
     std::array<double, 2 * d> start;  ///< positions, velocities
     double end;
     double leastSteps, mostSteps;
+    double longest = 0.03;  ///< seconds of a run
+    double mostTolerance = 1e-3;
+    double ratio = 1.12;  ///< of numbers of steps
+    int reference = 4;    ///< its steps: so many for one of the least, and 4000
+};
+
+/// A peer of one problem alone: `end(steps)`.
+template <std::size_t d>
+struct OwnPeer {
+    std::string name;
+    std::function<std::array<double, 2 * d>(double steps)> end;
 };
 
 /// `accelerate(x, a)`; `coefficients` as for integrateByTaylor.
 template <std::size_t d, class Accelerate, class Coefficients>
 void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& accelerate,
-                  Coefficients coefficients) {
+                  Coefficients coefficients, const std::vector<OwnPeer<d>>& others = {}) {
     using Array = std::array<double, 2 * d>;
-    const State start{0, 0, {p.start.begin(), p.start.end()}};
+    State from{0, 0, {p.start.begin(), p.start.end()}};
+    for (std::size_t i = 0; i < d; ++i) from.x[d + i] *= p.system.mechanics().masses[i];
     const auto endOf = [&](const Make& make, double n) {
-        const auto integrator = make(p.system, start, p.end / n);
-        State state = start;
+        const auto integrator = make(p.system, from, p.end / n);
+        State state = from;
         for (double i = 0; i < n; ++i)
             if (advance(*integrator, state).outcome != Outcome::converged) return std::vector<double>{};
         return state.x;
     };
     // Two degrees and steps agree to some 1e-13.
     const std::vector<double> exact =
-        endOf(schemeOf(*namedScheme("galerkin-gauss-12")), std::ceil(4 * p.leastSteps + 4000));
+        endOf(schemeOf(*namedScheme("galerkin-gauss-12")), std::ceil(p.reference * p.leastSteps + 4000));
     const auto error = [&](const auto& x) {
         if (x.empty()) return failed;
         double sum = 0;
@@ -54,9 +72,9 @@ void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& acc
         return std::vector<double>{std::sqrt(sum)};
     };
     std::vector<Curve> curves;
-    const std::vector<double> steps = counts(p.leastSteps, p.mostSteps, 1.12),
-                              tolerances = ratios(1e-3, 1e-16, 0.4);
-    constexpr double longest = 0.03;
+    const std::vector<double> steps = counts(p.leastSteps, p.mostSteps, p.ratio),
+                              tolerances = ratios(p.mostTolerance, 1e-16, 0.4);
+    const double longest = p.longest;
     for (const int s : {3, 4, 6, 8, 10, 12})
         for (const double tolerance : {0.0, 1e-9}) {
             Discretization g = *namedScheme("galerkin-gauss-" + std::to_string(s));
@@ -100,8 +118,8 @@ void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& acc
     curves.push_back(measure("odeint bulirsch-stoer", true, tolerances, longest,
                              [&](double e) { return byOdeint(odeint::bulirsch_stoer<Array>(e, e)); }));
     curves.push_back(measure("rk8pd", true, tolerances, longest, [&](double e) {
-        const auto integrator = baselineOf("rk8pd")(p.system, start, e);
-        State state = start;
+        const auto integrator = baselineOf("rk8pd")(p.system, from, e);
+        State state = from;
         while (state.t < p.end)
             if (integrator->advance(state, p.end).outcome != Outcome::converged) return failed;
         return error(state.x);
@@ -111,6 +129,9 @@ void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& acc
         integrateByTaylor<d>(y, p.end, e, coefficients);
         return error(y);
     }));
+    for (const OwnPeer<d>& other : others)
+        curves.push_back(
+            measure(other.name, true, steps, longest, [&](double n) { return error(other.end(n)); }));
     table.add(p.name, curves, 0);
 }
 
@@ -128,6 +149,75 @@ inline void henonHeiles(PeerTable& table) {
             return std::array{-x[0][n] - 2 * product(x[0], x[1], n),
                               -x[1][n] - product(x[0], x[0], n) + product(x[1], x[1], n)};
         });
+}
+
+/// sum x_i'^2/2 - sum r^2/2 - r^4/4 of its springs: the three lowest modes.
+inline void springChain(PeerTable& table) {
+    constexpr std::size_t d = 64;
+    const System system = findModel("lagrangian")
+                              ->make({"lagrangian",
+                                      {{"coordinates", Value::Array{"x[1..n]"}},
+                                       {"parameters", Value::Object{{"n", 64.0}}},
+                                       {"lagrangian",
+                                        "sum(i, 1..n, x[i]_t^2/2) - sum(i, 1..n-1, (x[i+1]-x[i])^2/2 + "
+                                        "(x[i+1]-x[i])^4/4) - x[1]^2/2 - x[1]^4/4 - x[n]^2/2 - x[n]^4/4"}},
+                                      {}});
+    std::array<double, 2 * d> start{};
+    for (std::size_t i = 0; i < d; ++i)
+        for (int k = 1; k <= 3; ++k)
+            start[i] += 2.0 / k * std::sin(k * std::numbers::pi * static_cast<double>(i + 1) / (d + 1));
+    struct Series {
+        std::array<Taylor, d + 1> stretch, square;
+    };
+    const auto series = std::make_shared<Series>();
+    addFewBodies<d>(
+        table, {"P9 chain of 64", system, start, 100, 60, 1e5, 0.1},
+        [](const double* x, double* a) {
+            double before = x[0] + x[0] * x[0] * x[0];
+            for (std::size_t i = 0; i < d; ++i) {
+                const double r = (i + 1 < d ? x[i + 1] : 0) - x[i], after = r + r * r * r;
+                a[i] = after - before;
+                before = after;
+            }
+        },
+        [series](const std::array<Taylor, d>& x, std::size_t n) {
+            std::array<double, d> a{};
+            double before = 0;
+            for (std::size_t i = 0; i <= d; ++i) {
+                Taylor &r = series->stretch[i], &square = series->square[i];
+                r[n] = (i < d ? x[i][n] : 0) - (i > 0 ? x[i - 1][n] : 0);
+                square[n] = product(r, r, n);
+                const double force = r[n] + product(r, square, n);
+                if (i > 0) a[i - 1] = force - before;
+                before = force;
+            }
+            return a;
+        });
+}
+
+inline void outerPlanets(PeerTable& table) {
+    constexpr std::size_t d = Planets::d;
+    const double G = 2.95912208286e-4, years = 1e4, end = 365.25 * years;
+    const System system = findModel("outer-solar-system")->make({"outer-solar-system", {{"G", G}}, {}});
+    const std::vector<double> given = system.start({}, 0);
+    Planets::Places masses;
+    std::array<double, 2 * d> start;
+    for (std::size_t i = 0; i < d; ++i) {
+        masses[i] = system.mechanics().masses[i];
+        start[i] = given[i];
+        start[d + i] = given[d + i] / masses[i];
+    }
+    Planets planets(G, masses);
+    std::vector<OwnPeer<d>> others;
+    for (const int nodes : {1, 2, 3, 4, 6})
+        others.push_back(
+            {"Kepler arcs, kicks at Gauss " + std::to_string(nodes),
+             [&planets, start, end, nodes](double n) { return planets.byKeplerArcs(start, end, n, nodes); }});
+    addFewBodies<d>(
+        table, {"P10 outer planets", system, start, end, 1000, 1e6, 0.5, 1e-6, 1.2, 20},
+        [&planets](const double* x, double* a) { planets.accelerate(x, a); },
+        [&planets](const std::array<Taylor, d>& x, std::size_t n) { return planets.coefficients(x, n); },
+        others);
 }
 
 }  // namespace extremal::bench

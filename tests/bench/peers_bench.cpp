@@ -12,6 +12,8 @@
 /// P6n nonlinear Schroedinger equation, 2 sech x, over one period, against the splittings of the program
 /// P7  chain of 100 balls on rods, the place of the last at t = 5, against RATTLE and IDA (chain_peers.hpp)
 /// P8  Henon-Heiles, the place at t = 100 (few_body_peers.hpp)
+/// P9  chain of 64 masses and springs, all places at t = 100
+/// P10 outer solar system, all places after 10,000 years
 ///
 /// Peers are loops by hand around Boost.odeint and splittings, and the methods in common use that the program
 /// offers beside its own (GSL, SUNDIALS, SRKN, impulse, Gauss collocation with its nodes in vector registers,
@@ -176,7 +178,9 @@ int main(int argc, char** argv) {
                                        {"P6", breather},
                                        {"P6n", solitons},
                                        {"P7", chains},
-                                       {"P8", henonHeiles}})
+                                       {"P8", henonHeiles},
+                                       {"P9", springChain},
+                                       {"P10", outerPlanets}})
         if (wanted.empty() || wanted.contains(problem)) run(table);
     if (csv && !table.writeCsv(csv)) {
         std::fprintf(stderr, "%s cannot be written\n", csv);
