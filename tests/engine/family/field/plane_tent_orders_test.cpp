@@ -44,6 +44,13 @@ Row moved(const Row& values, int nodes, int degree, const Row& from, const Row& 
     return both;
 }
 
+/// The largest value after 300 steps.
+double largestAfter(const System& system, const Discretization& d, const State& start, double step) {
+    double most = 0;
+    for (const double each : run(system, d, start, step, 300).x) most = std::max(most, std::abs(each));
+    return most;
+}
+
 }  // namespace
 
 class PlaneTentOrdersTest : public QObject {
@@ -259,12 +266,7 @@ private slots:
             const double dx = degree * 0.5, dy = dx * ratio,
                          limit = longestPlaneStep(d, problemOf(system), start.x.data()),
                          expected = known / std::sqrt(1 / (dx * dx) + 1 / (dy * dy));
-            const auto grown = [&](double share) {
-                const State end = run(system, d, start, share * limit, 300);
-                double most = 0;
-                for (const double each : end.x) most = std::max(most, std::abs(each));
-                return most;
-            };
+            const auto grown = [&](double share) { return largestAfter(system, d, start, share * limit); };
             qInfo("%.5f, known %.5f: %.1e, %.1e", limit, expected, grown(0.99), grown(1.01));
             QVERIFY(std::abs(limit / expected - 1) < 5e-4);
             QVERIFY(grown(0.99) < 1e3 && grown(1.01) > 1e6);
@@ -292,12 +294,7 @@ private slots:
         const double dx = degree * 0.5, dy = 2.5 * dx,
                      limit = longestPlaneStep(both, problemOf(system), start.x.data()),
                      expected = 1 / std::hypot(1 / (alongX * dx), 1 / (alongY * dy));
-        const auto grown = [&](double share) {
-            const State end = run(system, both, start, share * limit, 300);
-            double most = 0;
-            for (const double each : end.x) most = std::max(most, std::abs(each));
-            return most;
-        };
+        const auto grown = [&](double share) { return largestAfter(system, both, start, share * limit); };
         qInfo("%.5f, known %.5f: %.1e, %.1e", limit, expected, grown(0.99), grown(1.01));
         QVERIFY(std::abs(limit / expected - 1) < 5e-4);
         QVERIFY(grown(0.99) < 1e3 && grown(1.01) > 1e6);
