@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "engine/model/typed/tape_code.hpp"
+#include "engine/model/typed/tape_groups.hpp"
 #include "engine/model/typed/tape_run.hpp"
 
 namespace extremal::typed {
@@ -69,6 +71,35 @@ struct Line {
         std::reverse(steps.begin(), steps.end());
         joinSinesAndCosines();
         joinProductsAndSums();
+    }
+
+    /// Sorts the steps by how many have to be there before them, and then by operations; false, and nothing
+    /// changed, where fewer than half of them are in long groups.
+    bool sortIntoGroups() {
+        constexpr std::size_t few = 128, fewInGroup = 8;
+        if (steps.size() < few) return false;
+        std::vector<int> depth(uses.size(), 0);
+        std::map<std::tuple<int, Op, Register>, std::size_t> groups;
+        const auto functionOf = [](const Instruction& code) {
+            const bool hasFunction = code.op == Op::call || code.op == Op::call2 || code.op == Op::lookUp;
+            return hasFunction ? code.c : Register{0};
+        };
+        for (Step& step : steps) {
+            int own = 0;
+            forOperands(step.code, [&](Register& v) { own = std::max(own, depth[v] + 1); });
+            depth[step.makes] = own;
+            if (step.makesToo != none) depth[step.makesToo] = own;
+            ++groups[{own, step.code.op, functionOf(step.code)}];
+        }
+        std::size_t inLongGroups = 0;
+        for (const auto& [key, count] : groups)
+            if (count >= fewInGroup) inLongGroups += count;
+        if (2 * inLongGroups < steps.size()) return false;
+        std::stable_sort(steps.begin(), steps.end(), [&](const Step& a, const Step& b) {
+            return std::tuple(depth[a.makes], a.code.op, functionOf(a.code)) <
+                   std::tuple(depth[b.makes], b.code.op, functionOf(b.code));
+        });
+        return true;
     }
 
 private:
@@ -135,6 +166,7 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     std::vector<Register> wanted;
     for (const int root : roots) wanted.push_back(code.value(root));
     Line line(code.items(), std::move(wanted));
+    const bool isGrouped = line.sortIntoGroups();
 
     Tape tape;
     tape.inputs_ = static_cast<std::size_t>(inputs);
@@ -173,16 +205,25 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
         std::sort(read.begin(), read.end());
         read.erase(std::unique(read.begin(), read.end()), read.end());
         for (const Register v : read)
-            if (last[v] == s && place[v] >= firstFree) free.push_back(place[v]);
+            if (last[v] == s && place[v] >= firstFree && !isGrouped) free.push_back(place[v]);
         instruction.to = place[makes] = take();
         if (makesToo != none) instruction.c = place[makesToo] = take();
         tape.code_.push_back(instruction);
     }
     tape.registers_ = end;
     for (const Register v : line.outputs) tape.outputs_.push_back(place[v]);
+    if (isGrouped) tape.groups_ = groupsOf(tape.code_);
     return tape;
 }
 
-void Tape::run(double* r) const { detail::run(*this, r); }
+void Tape::run(double* r) const {
+    if (groups_.empty()) return detail::run(*this, r);
+    detail::fillConstants(*this, r);
+    for (const TapeGroup& g : groups_) {
+        const Instruction* const code = &code_[g.first];
+        if (g.count > 1 && runGroup(g, code, r)) continue;
+        for (std::uint32_t k = 0; k < g.count; ++k) detail::carryOut(*this, code[k], r);
+    }
+}
 
 }  // namespace extremal::typed

@@ -3,7 +3,9 @@
 ///
 /// Registers: the inputs (q, v, t), then the constants, then intermediate values, reused when they are no
 /// longer needed. Every common part is computed once; integer powers are products, x^(n/2) products of one
-/// square root, and sin and cos of one angle a single call. Evaluation allocates nothing and changes nothing
+/// square root, and sin and cos of one angle a single call. Of long formulas with many parts alike, such as
+/// the sums over a chain, instructions are in groups that are carried out as loops (tape_groups.hpp), and
+/// registers are not reused. Evaluation allocates nothing and changes nothing
 /// but the caller's registers, so any number of threads may share a tape.
 #pragma once
 
@@ -38,6 +40,14 @@ struct Instruction {
     std::uint32_t to, a, b, c;
 };
 
+/// Instructions of one operation that do not read each other's results; registers are written in order.
+struct TapeGroup {
+    enum class Operand : std::uint8_t { single, sideBySide };
+    std::uint32_t first = 0, count = 1;
+    bool isRegular = false;  ///< every operand is one register, or registers side by side
+    Operand a = Operand::single, b = Operand::single, c = Operand::single;
+};
+
 /// A derivative of a table.
 struct LookUp {
     std::shared_ptr<const Interpolant> table;
@@ -57,6 +67,8 @@ public:
     std::span<const double> constants() const { return constants_; }
     std::span<const Instruction> code() const { return code_; }
     std::span<const LookUp> tables() const { return tables_; }
+    /// Empty where instructions are carried out one by one.
+    std::span<const TapeGroup> groups() const { return groups_; }
 
     /// `r` has registers() entries and the inputs in front; afterwards output(i, r) is root i.
     void run(double* r) const;
@@ -69,6 +81,7 @@ private:
     std::size_t inputs_ = 0, registers_ = 0;
     std::vector<double> constants_;
     std::vector<Instruction> code_;
+    std::vector<TapeGroup> groups_;
     std::vector<LookUp> tables_;
     std::vector<std::uint32_t> outputs_;
 };

@@ -114,61 +114,69 @@ inline Lanes lookUp(const LookUp& table, const Lanes& a) {
 }
 
 template <class T>
-void run(const Tape& tape, T* r) {
+void carryOut(const Tape& tape, const Instruction& i, T* r) {
     using std::cos;
     using std::sin;
     using std::sqrt;
+    switch (i.op) {
+        case Op::add:
+            r[i.to] = r[i.a] + r[i.b];
+            break;
+        case Op::subtract:
+            r[i.to] = r[i.a] - r[i.b];
+            break;
+        case Op::multiply:
+            r[i.to] = r[i.a] * r[i.b];
+            break;
+        case Op::multiplyAdd:
+            r[i.to] = r[i.a] * r[i.b] + r[i.c];
+            break;
+        case Op::multiplySubtract:
+            r[i.to] = r[i.a] * r[i.b] - r[i.c];
+            break;
+        case Op::subtractProduct:
+            r[i.to] = r[i.c] - r[i.a] * r[i.b];
+            break;
+        case Op::negate:
+            r[i.to] = -r[i.a];
+            break;
+        case Op::reciprocal:
+            r[i.to] = T(1) / r[i.a];
+            break;
+        case Op::sqrt:
+            r[i.to] = sqrt(r[i.a]);
+            break;
+        case Op::sinCos: {
+            const T angle = r[i.a];
+            r[i.to] = sin(angle);
+            r[i.c] = cos(angle);
+            break;
+        }
+        case Op::call:
+            r[i.to] = callOne(static_cast<Function>(i.c), r[i.a]);
+            break;
+        case Op::call2:
+            r[i.to] = callTwo(static_cast<Function>(i.c), r[i.a], r[i.b]);
+            break;
+        case Op::choose:
+            r[i.to] = choose(r[i.a], r[i.b], r[i.c]);
+            break;
+        case Op::lookUp:
+            r[i.to] = lookUp(tape.tables()[i.c], r[i.a]);
+            break;
+    }
+}
+
+template <class T>
+void fillConstants(const Tape& tape, T* r) {
     T* constant = r + tape.inputs();
     for (const double value : tape.constants()) *constant++ = T(value);
-    for (const Instruction& i : tape.code()) {
-        switch (i.op) {
-            case Op::add:
-                r[i.to] = r[i.a] + r[i.b];
-                break;
-            case Op::subtract:
-                r[i.to] = r[i.a] - r[i.b];
-                break;
-            case Op::multiply:
-                r[i.to] = r[i.a] * r[i.b];
-                break;
-            case Op::multiplyAdd:
-                r[i.to] = r[i.a] * r[i.b] + r[i.c];
-                break;
-            case Op::multiplySubtract:
-                r[i.to] = r[i.a] * r[i.b] - r[i.c];
-                break;
-            case Op::subtractProduct:
-                r[i.to] = r[i.c] - r[i.a] * r[i.b];
-                break;
-            case Op::negate:
-                r[i.to] = -r[i.a];
-                break;
-            case Op::reciprocal:
-                r[i.to] = T(1) / r[i.a];
-                break;
-            case Op::sqrt:
-                r[i.to] = sqrt(r[i.a]);
-                break;
-            case Op::sinCos: {
-                const T angle = r[i.a];
-                r[i.to] = sin(angle);
-                r[i.c] = cos(angle);
-                break;
-            }
-            case Op::call:
-                r[i.to] = callOne(static_cast<Function>(i.c), r[i.a]);
-                break;
-            case Op::call2:
-                r[i.to] = callTwo(static_cast<Function>(i.c), r[i.a], r[i.b]);
-                break;
-            case Op::choose:
-                r[i.to] = choose(r[i.a], r[i.b], r[i.c]);
-                break;
-            case Op::lookUp:
-                r[i.to] = lookUp(tape.tables()[i.c], r[i.a]);
-                break;
-        }
-    }
+}
+
+template <class T>
+void run(const Tape& tape, T* r) {
+    fillConstants(tape, r);
+    for (const Instruction& i : tape.code()) carryOut(tape, i, r);
 }
 
 }  // namespace extremal::typed::detail
