@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/scene/write/typed_scene.hpp"

@@ -11,9 +11,9 @@
 #include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/formula.hpp"
-#include "engine/model/typed/node_tape.hpp"
+#include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/model/typed/symbolic.hpp"
-#include "engine/model/typed/tape_registers.hpp"
+#include "engine/model/typed/tape/tape_registers.hpp"
 
 namespace extremal {
 namespace {

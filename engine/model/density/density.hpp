@@ -22,7 +22,7 @@
 #include "engine/core/field.hpp"
 #include "engine/core/settings.hpp"
 #include "engine/core/value.hpp"
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal {
 

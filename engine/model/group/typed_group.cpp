@@ -19,8 +19,8 @@
 #include "engine/model/group/named_groups.hpp"
 #include "engine/model/typed/phase/typed_variables.hpp"
 #include "engine/model/typed/symbolic.hpp"
-#include "engine/model/typed/tape.hpp"
-#include "engine/model/typed/tape_registers.hpp"
+#include "engine/model/typed/tape/tape.hpp"
+#include "engine/model/typed/tape/tape_registers.hpp"
 #include "engine/model/typed/written_out.hpp"
 
 namespace extremal::groups {

@@ -14,7 +14,7 @@
 
 #include "engine/model/mechanics.hpp"
 #include "engine/model/typed/graph.hpp"
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal::typed {
 

@@ -5,7 +5,7 @@
 
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
-#include "engine/model/typed/tape_code.hpp"
+#include "engine/model/typed/tape/tape_code.hpp"
 
 namespace extremal::typed {
 namespace {

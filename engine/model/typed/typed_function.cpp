@@ -8,7 +8,7 @@
 #include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
-#include "engine/model/typed/tape_registers.hpp"
+#include "engine/model/typed/tape/tape_registers.hpp"
 
 namespace extremal::typed {
 namespace {

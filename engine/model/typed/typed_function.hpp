@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/model/typed/formula.hpp"
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal::typed {
 

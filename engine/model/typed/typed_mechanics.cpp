@@ -14,10 +14,10 @@
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/model/typed/branches.hpp"
 #include "engine/model/typed/landmarks.hpp"
-#include "engine/model/typed/node_tape.hpp"
+#include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/model/typed/symbolic.hpp"
-#include "engine/model/typed/tape_registers.hpp"
-#include "engine/model/typed/tape_run.hpp"
+#include "engine/model/typed/tape/tape_registers.hpp"
+#include "engine/model/typed/tape/tape_run.hpp"
 
 namespace extremal::typed {
 namespace {

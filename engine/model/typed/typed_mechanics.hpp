@@ -13,7 +13,7 @@
 #include "engine/model/mechanics.hpp"
 #include "engine/model/parts/entries.hpp"
 #include "engine/model/typed/formula.hpp"
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal::typed {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/model/typed/tape_run.hpp"
+#include "engine/model/typed/tape/tape_run.hpp"
 
 namespace extremal {
 namespace {

@@ -12,7 +12,7 @@
 #include <limits>
 #include <span>
 
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal {
 

@@ -12,8 +12,8 @@
 #include "engine/core/settings.hpp"
 #include "engine/model/typed/formula.hpp"
 #include "engine/model/typed/symbolic.hpp"
-#include "engine/model/typed/tape.hpp"
-#include "engine/model/typed/tape_registers.hpp"
+#include "engine/model/typed/tape/tape.hpp"
+#include "engine/model/typed/tape/tape_registers.hpp"
 
 namespace extremal::typed {
 

@@ -10,10 +10,10 @@
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
-#include "engine/model/typed/node_tape.hpp"
+#include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/model/typed/symbolic.hpp"
-#include "engine/model/typed/tape.hpp"
-#include "engine/model/typed/tape_registers.hpp"
+#include "engine/model/typed/tape/tape.hpp"
+#include "engine/model/typed/tape/tape_registers.hpp"
 #include "engine/model/typed/typed_model.hpp"
 
 namespace extremal::typed {

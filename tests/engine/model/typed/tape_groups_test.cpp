@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "engine/model/typed/tape.hpp"
-#include "engine/model/typed/tape_run.hpp"
+#include "engine/model/typed/tape/tape.hpp"
+#include "engine/model/typed/tape/tape_run.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
 #include "tests/engine/model/typed/typed.hpp"
 #include "tests/tools/test.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/model/typed/tape_code.hpp"
-#include "engine/model/typed/tape_groups.hpp"
-#include "engine/model/typed/tape_run.hpp"
+#include "engine/model/typed/tape/tape_code.hpp"
+#include "engine/model/typed/tape/tape_groups.hpp"
+#include "engine/model/typed/tape/tape_run.hpp"
 
 namespace extremal::typed {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal::typed {
 

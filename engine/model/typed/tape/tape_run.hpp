@@ -9,7 +9,7 @@
 #include "engine/core/algebra/lanes.hpp"
 #include "engine/core/algebra/lanes_trigonometry.hpp"
 #include "engine/model/typed/graph.hpp"
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal::typed::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/typed/tape_code.hpp"
+#include "engine/model/typed/tape/tape_code.hpp"
 
 #include <algorithm>
 #include <array>

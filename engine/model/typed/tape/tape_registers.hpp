@@ -6,7 +6,7 @@
 #include <iterator>
 #include <vector>
 
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal::typed {
 

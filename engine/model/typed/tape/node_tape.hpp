@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/core/algebra/lanes.hpp"
-#include "engine/model/typed/tape.hpp"
-#include "engine/model/typed/tape_run.hpp"
+#include "engine/model/typed/tape/tape.hpp"
+#include "engine/model/typed/tape/tape_run.hpp"
 
 namespace extremal::typed {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/model/typed/graph.hpp"
-#include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal::typed {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/typed/tape_groups.hpp"
+#include "engine/model/typed/tape/tape_groups.hpp"
 
 #include <algorithm>
 #include <cmath>
