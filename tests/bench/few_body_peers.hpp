@@ -198,14 +198,14 @@ inline void springChain(PeerTable& table) {
 inline void outerPlanets(PeerTable& table) {
     constexpr std::size_t d = Planets::d;
     const double G = 2.95912208286e-4, years = 1e4, end = 365.25 * years;
-    const System system = findModel("outer-solar-system")->make({"outer-solar-system", {{"G", G}}, {}});
-    const std::vector<double> given = system.start({}, 0);
+    const ModelEntry& entry = *findModel("outer-solar-system");
+    const System system = entry.make({"outer-solar-system", {{"G", G}}, {}});
     Planets::Places masses;
     std::array<double, 2 * d> start;
     for (std::size_t i = 0; i < d; ++i) {
         masses[i] = system.mechanics().masses[i];
-        start[i] = given[i];
-        start[d + i] = given[d + i] / masses[i];
+        start[i] = entry.exampleQ[i];
+        start[d + i] = entry.exampleP[i] / masses[i];
     }
     Planets planets(G, masses);
     std::vector<OwnPeer<d>> others;
@@ -214,7 +214,7 @@ inline void outerPlanets(PeerTable& table) {
             {"Kepler arcs, kicks at Gauss " + std::to_string(nodes),
              [&planets, start, end, nodes](double n) { return planets.byKeplerArcs(start, end, n, nodes); }});
     addFewBodies<d>(
-        table, {"P10 outer planets", system, start, end, 1000, 1e6, 0.5, 1e-6, 1.2, 20},
+        table, {"P10 outer planets", system, start, end, 5000, 1e6, 0.5, 1e-6, 1.2, 4},
         [&planets](const double* x, double* a) { planets.accelerate(x, a); },
         [&planets](const std::array<Taylor, d>& x, std::size_t n) { return planets.coefficients(x, n); },
         others);
