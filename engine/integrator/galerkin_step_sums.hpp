@@ -259,9 +259,13 @@ bool GalerkinStep<T, D>::assembleSparse(const T& t) {
         const auto functionsOf = [&](int k) {
             return SparseJacobian::Functions{functions(k).value.data(), functions(k).slope.data()};
         };
-        return sparse_->factorise(weight_.data(), functionsOf) == Outcome::converged;
+        if (sparse_->factorise(weight_.data(), functionsOf) == Outcome::converged &&
+            isRegular(T(sparse_->pivotRatio()), T(1)))
+            return true;
     }
-    return false;
+    // Full pivoting tells what is singular.
+    sparse_.reset();
+    return evaluateHessians(t) && factoriseJacobian();
 }
 
 /// dR/dY with the Hessians at hand.

@@ -47,6 +47,8 @@ public:
         }
         return lu_.factorise();
     }
+    /// Of the factors, the smallest pivot over the largest.
+    double pivotRatio() const { return lu_.pivotRatio(); }
     /// Replaces the right-hand side by the solution.
     void solve(double* x) const { lu_.solve(x); }
 

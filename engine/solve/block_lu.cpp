@@ -2,6 +2,8 @@
 #include "engine/solve/block_lu.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -169,6 +171,15 @@ Outcome BlockLu::factorise() {
                 subtractProduct(v + u.left, u.rows, n, v + u.right + c * n, v + u.target + c * u.rows);
     }
     return Outcome::converged;
+}
+
+double BlockLu::pivotRatio() const {
+    double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+    for (const double inverse : inverse_) {
+        smallest = std::min(smallest, std::abs(inverse));
+        largest = std::max(largest, std::abs(inverse));
+    }
+    return smallest / largest;
 }
 
 void BlockLu::gather(const double* x) const {

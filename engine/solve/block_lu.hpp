@@ -36,6 +36,8 @@ public:
 
     /// Replaces the matrix by its factors. Singular: a pivot is exactly zero.
     Outcome factorise();
+    /// Of the factors, the smallest pivot over the largest.
+    double pivotRatio() const;
     /// Replaces the right-hand side by the solution.
     void solve(double* x) const;
     /// That of the transposed matrix.

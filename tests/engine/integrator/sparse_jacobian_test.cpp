@@ -107,6 +107,24 @@ private slots:
             QVERIFY(apart < 1e-11);
         }
     }
+    /// Masses 0.1 and 0.9 with 0.3 between them: nothing but round-off says how fast one direction moves. A
+    /// step then asks full pivoting whether it is singular.
+    void whatIsSingularIsSeen() {
+        LagrangianEntries entries;
+        entries.hessian = {{2, 2}, {3, 2}, {3, 3}};
+        entries.jet = [](const void*, double, const double*, const double*, double*, double* hessian) {
+            hessian[0] = 0.1;
+            hessian[1] = 0.3;
+            hessian[2] = 0.9;
+        };
+        SparseJacobian jacobian(entries, 1, {1, 1});
+        const double place[2] = {0, 0}, weight = 1, value = 0.5, slope = 1;
+        jacobian.evaluate(0, 0, place, place);
+        const Outcome outcome = jacobian.factorise(&weight, [&](int) {
+            return SparseJacobian::Functions{&value, &slope};
+        });
+        QVERIFY(outcome != Outcome::converged || jacobian.pivotRatio() < 1e-14);
+    }
     /// Where every pair of coordinates is coupled it is left alone.
     void aFullMatrixIsDense() {
         const ReadScene read =
