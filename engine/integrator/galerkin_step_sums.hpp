@@ -263,7 +263,7 @@ bool GalerkinStep<T, D>::assembleSparse(const T& t) {
             isRegular(T(sparse_->pivotRatio()), T(1)))
             return true;
     }
-    // Full pivoting tells what is singular.
+    // Pivots from all rows, not from those of a block alone, tell what is singular.
     sparse_.reset();
     return evaluateHessians(t) && factoriseJacobian();
 }

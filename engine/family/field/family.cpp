@@ -162,8 +162,7 @@ void describeStability(Properties& p, const Discretization& d, int degree, const
 
 /// "leapfrog", "midpoint × trapezoid": the name of the scheme of this space and rules.
 std::string nameOfTent(const Discretization& d, const TentDegrees& degrees, bool isExplicit) {
-    std::string spaceRule = ruleName(d.quadrature, "space");
-    const std::string timeRule = ruleName(d.quadrature, "time");
+    const std::string spaceRule = ruleName(d.quadrature, "space"), timeRule = ruleName(d.quadrature, "time");
     if (d.quadrature.find(acrossPart))
         return spaceRule + " × " + ruleName(d.quadrature, acrossPart) + " × " + timeRule;
     if (hasOwnFunctions(d.space))

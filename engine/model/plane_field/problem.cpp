@@ -39,8 +39,7 @@ PlaneFieldProblem::PlaneFieldProblem(const wave::Grid& grid, std::vector<FieldCo
             if (speed(a) == speed(b) && potential_.turns(a, b)) turns_.emplace_back(a, b);
 }
 
-std::vector<double> PlaneFieldProblem::modesOf(const double* u) const {
-    SpectralGrid ways(grid_.nx, grid_.ny, grid_.nx, grid_.ny);
+std::vector<double> PlaneFieldProblem::modesOf(const double* u, SpectralGrid& ways) const {
     std::vector<double> U(components() * 2 * ways.modes());
     for (std::size_t c = 0; c < components(); ++c)
         ways.toModes(u + c * nodes(), U.data() + c * 2 * ways.modes());
@@ -58,9 +57,8 @@ void PlaneFieldProblem::forModes(const std::vector<double>& U, const std::vector
                   k == 0 || 2 * k == grid_.nx ? 1 : 2);
 }
 
-double PlaneFieldProblem::meanPotential(const std::vector<double>& U) const {
+double PlaneFieldProblem::meanPotential(const std::vector<double>& U, SpectralGrid& ways) const {
     if (potential_.isZero()) return 0;
-    SpectralGrid ways(grid_.nx, grid_.ny, grid_.nx, grid_.ny);
     std::vector<double> moved(2 * ways.modes()), u(size()), W(nodes());
     const auto at = [&](double cellsX, double cellsY) {
         const std::vector<Complex> turnX = turnsOf(grid_.nx, cellsX), turnY = turnsOf(grid_.ny, cellsY);
@@ -89,19 +87,21 @@ double PlaneFieldProblem::meanPotential(const std::vector<double>& U) const {
 
 double PlaneFieldProblem::energy(const double* state) const {
     const double turn = 2 * std::numbers::pi;
-    const std::vector<double> U = modesOf(state);
+    SpectralGrid ways(grid_.nx, grid_.ny, grid_.nx, grid_.ny);
+    const std::vector<double> U = modesOf(state, ways);
     double quadratic = 0;
-    forModes(U, modesOf(state + size()), [&](std::size_t c, int k, int l, auto u, auto v, int weight) {
+    forModes(U, modesOf(state + size(), ways), [&](std::size_t c, int k, int l, auto u, auto v, int weight) {
         const double K = turn * k / grid_.x.length, L = turn * l / grid_.y.length;
         quadratic += weight * (std::norm(v) + stiffness(c) * (K * K + L * L) * std::norm(u)) / 2;
     });
-    return grid_.measure() * (quadratic + meanPotential(U));
+    return grid_.measure() * (quadratic + meanPotential(U, ways));
 }
 
 std::array<double, 2> PlaneFieldProblem::momentum(const double* state) const {
     const double turn = 2 * std::numbers::pi;
     std::array<double, 2> sum{};
-    forModes(modesOf(state), modesOf(state + size()),
+    SpectralGrid ways(grid_.nx, grid_.ny, grid_.nx, grid_.ny);
+    forModes(modesOf(state, ways), modesOf(state + size(), ways),
              [&](std::size_t, int k, int l, auto u, auto v, int weight) {
                  if (2 * k == grid_.nx || 2 * l == grid_.ny) return;
                  const double both = weight * std::imag(u * std::conj(v));
@@ -158,7 +158,8 @@ std::vector<double> PlaneFieldProblem::charges(const double* state) const {
 
 double PlaneFieldProblem::tail(const double* state) const {
     double upper = 0, all = 0;
-    const std::vector<double> U = modesOf(state);
+    SpectralGrid ways(grid_.nx, grid_.ny, grid_.nx, grid_.ny);
+    const std::vector<double> U = modesOf(state, ways);
     forModes(U, U, [&](std::size_t, int k, int l, auto u, auto, int weight) {
         const double share = weight * std::norm(u);
         all += share;

@@ -63,13 +63,13 @@ public:
 
 private:
     /// Of all components, one after the other, as rows of SpectralGrid.
-    std::vector<double> modesOf(const double* u) const;
+    std::vector<double> modesOf(const double* u, SpectralGrid& ways) const;
     /// f(c, k, l, c_u, c_v, weight) of every mode of every component, weight 2 where it stands for its
     /// conjugate as well.
     template <class F>
     void forModes(const std::vector<double>& U, const std::vector<double>& V, F&& f) const;
     /// The mean of W over twice as many places along each axis: those of the nodes, and between them.
-    double meanPotential(const std::vector<double>& U) const;
+    double meanPotential(const std::vector<double>& U, SpectralGrid& ways) const;
 
     wave::Grid grid_;
     std::vector<FieldComponent> components_;

@@ -108,7 +108,7 @@ private slots:
         }
     }
     /// Masses 0.1 and 0.9 with 0.3 between them: nothing but round-off says how fast one direction moves. A
-    /// step then asks full pivoting whether it is singular.
+    /// step then asks the dense matrix whether it is singular.
     void whatIsSingularIsSeen() {
         LagrangianEntries entries;
         entries.hessian = {{2, 2}, {3, 2}, {3, 3}};
