@@ -221,8 +221,10 @@ void Tape::run(double* r) const {
     detail::fillConstants(*this, r);
     for (const TapeGroup& g : groups_) {
         const Instruction* const code = &code_[g.first];
-        if (g.count > 1 && runGroup(g, code, r)) continue;
-        for (std::uint32_t k = 0; k < g.count; ++k) detail::carryOut(*this, code[k], r);
+        if (g.isLoop)
+            runLoop(g, code, r);
+        else
+            for (std::uint32_t k = 0; k < g.count; ++k) detail::carryOut(*this, code[k], r);
     }
 }
 

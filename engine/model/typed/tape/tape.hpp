@@ -44,6 +44,7 @@ struct Instruction {
 struct TapeGroup {
     enum class Operand : std::uint8_t { single, sideBySide };
     std::uint32_t first = 0, count = 1;
+    bool isLoop = false;     ///< several instructions of arithmetic
     bool isRegular = false;  ///< every operand is one register, or registers side by side
     Operand a = Operand::single, b = Operand::single, c = Operand::single;
 };

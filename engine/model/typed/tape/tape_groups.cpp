@@ -66,9 +66,21 @@ template <class F>
         for (std::size_t k = 0; k < g.count; ++k) to[k] = f(r[code[k].a], r[code[k].b], r[code[k].c]);
 }
 
-void carryOut(const TapeGroup* group, const Instruction* code, double* r, bool* isDone) {
+bool isArithmetic(Op op) {
+    switch (op) {
+        case Op::sinCos:
+        case Op::call:
+        case Op::call2:
+        case Op::choose:
+        case Op::lookUp:
+            return false;
+        default:
+            return true;
+    }
+}
+
+void carryOut(const TapeGroup* group, const Instruction* code, double* r) {
     const TapeGroup& g = *group;
-    *isDone = true;
     switch (code->op) {
         case Op::add:
             return binary(g, code, r, [](double a, double b) { return a + b; });
@@ -88,12 +100,8 @@ void carryOut(const TapeGroup* group, const Instruction* code, double* r, bool* 
             return unary(g, code, r, [](double a) { return 1 / a; });
         case Op::sqrt:
             return unary(g, code, r, [](double a) { return __builtin_sqrt(a); });
-        case Op::sinCos:
-        case Op::call:
-        case Op::call2:
-        case Op::choose:
-        case Op::lookUp:
-            *isDone = false;
+        default:
+            return;
     }
 }
 
@@ -121,7 +129,8 @@ std::vector<TapeGroup> groupsOf(std::span<const Instruction> code) {
                code[first].op != Op::sinCos && !readsOwn(code[end]))
             ++end;
         TapeGroup g{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first)};
-        if (g.count > 1) {
+        g.isLoop = g.count > 1 && isArithmetic(code[first].op);
+        if (g.isLoop) {
             const auto all = code.subspan(first, g.count);
             g.isRegular = isPattern(all, &Instruction::a, g.a);
             // Operands that an operation does not have are 0 in all of them.
@@ -133,11 +142,9 @@ std::vector<TapeGroup> groupsOf(std::span<const Instruction> code) {
     return groups;
 }
 
-bool runGroup(const TapeGroup& group, const Instruction* code, double* r) {
+void runLoop(const TapeGroup& group, const Instruction* code, double* r) {
     static const auto call = ForThisMachine<&carryOut>::call();
-    bool isDone = false;
-    call(&group, code, r, &isDone);
-    return isDone;
+    call(&group, code, r);
 }
 
 }  // namespace extremal::typed

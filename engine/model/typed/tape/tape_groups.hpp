@@ -16,7 +16,7 @@ namespace extremal::typed {
 /// of one operation belong together where none reads what another makes.
 std::vector<TapeGroup> groupsOf(std::span<const Instruction> code);
 
-/// Carries out a group of one of the operations of arithmetic; false where it is another one.
-bool runGroup(const TapeGroup& group, const Instruction* code, double* r);
+/// Carries out a group that is a loop.
+void runLoop(const TapeGroup& group, const Instruction* code, double* r);
 
 }  // namespace extremal::typed
