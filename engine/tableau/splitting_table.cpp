@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/quadrature/rule.hpp"
 #include "engine/tableau/tableau.hpp"
 
 namespace extremal {
@@ -18,6 +19,12 @@ std::vector<double> palindrome(std::vector<double> first, std::size_t count) {
     else
         all.push_back(rest);
     all.insert(all.end(), first.rbegin(), first.rend());
+    return all;
+}
+
+/// The second half is made the first one backwards: nodes are symmetric to round-off.
+std::vector<double> mirrored(std::vector<double> all) {
+    for (std::size_t i = 0; i < all.size() / 2; ++i) all[all.size() - 1 - i] = all[i];
     return all;
 }
 
@@ -81,6 +88,54 @@ Splitting srkn14a() {
         palindrome({0.09171915262446165, 0.183983170005006, -0.05653436583288827, 0.004914688774712854,
                     0.143761127168358, 0.328567693746804},
                    14));
+}
+
+Splitting gaussKicks(int n) {
+    const Rule<double> rule = gauss<double>(n);
+    std::vector<double> drifts{rule.c.front()};
+    for (std::size_t i = 1; i < rule.c.size(); ++i) drifts.push_back(rule.c[i] - rule.c[i - 1]);
+    drifts.push_back(drifts.front());
+    return alternating(2, false, false, mirrored(drifts), mirrored(rule.b));
+}
+
+Splitting lobattoKicks(int n) {
+    const Rule<double> rule = lobatto<double>(n);
+    std::vector<double> drifts;
+    for (std::size_t i = 1; i < rule.c.size(); ++i) drifts.push_back(rule.c[i] - rule.c[i - 1]);
+    return alternating(2, false, true, mirrored(rule.b), mirrored(drifts));
+}
+
+Splitting aba104() {
+    return alternating(
+        4, false, false,
+        palindrome({0.04706710064597250612947887637243678556564, 0.1847569354170881069247376193702560968574,
+                    0.2827060056798362053243616565541452479160},
+                   8),
+        palindrome({0.1188819173681970199453503950853885936957, 0.2410504605515015657441667865901651105675,
+                    -0.2732866667053238060543113981664559460630},
+                   7));
+}
+
+Splitting aba864() {
+    return alternating(
+        4, false, false,
+        palindrome({0.0711334264982231177779387300061549964174, 0.241153427956640098736487795326289649618,
+                    0.521411761772814789212136078067994229991},
+                   8),
+        palindrome({0.183083687472197221961703757166430291072, 0.310782859898574869507522291054262796375,
+                    -0.0265646185119588006972121379164987592663},
+                   7));
+}
+
+Splitting aba1064() {
+    return alternating(
+        4, false, false,
+        palindrome({0.03809449742241219545697532230863756534060, 0.1452987161169137492940200726606637497442,
+                    0.2076276957255412507162056113249882065158, 0.4359097036515261592231548624010651844006},
+                   9),
+        palindrome({0.09585888083707521061077150377145884776921, 0.2044461531429987806805077839164344779763,
+                    0.2170703479789911017143385924306336714532},
+                   8));
 }
 
 std::shared_ptr<const Tableau> tableauOf(const std::vector<SplittingStage>& stages, double known) {

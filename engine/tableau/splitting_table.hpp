@@ -42,6 +42,17 @@ Splitting srkn6b();         ///< order 4, Nystrom, 6 kicks
 Splitting srkn11b();        ///< order 6, Nystrom, 11 kicks
 Splitting srkn14a();        ///< order 6, Nystrom, 14 kicks, drift first
 
+// For H = A + e B with a small e, of which B alone is to be sampled well. The errors are sums of e h^p, e^2
+// h^q, ...; the order is the least of these. Drift first but for lobattoKicks.
+//
+// Sources: Laskar and Robutel, Celest. Mech. Dyn. Astron. 80 (2001) 39-62; Blanes, Casas, Farres, Laskar,
+// Makazaga and Murua, Appl. Numer. Math. 68 (2013) 58-72, tables 2 and 3.
+Splitting gaussKicks(int n);    ///< order 2, at the nodes of Gauss: e h^(2n) + e^2 h^2
+Splitting lobattoKicks(int n);  ///< order 2, at those of Lobatto, n >= 2: e h^(2n-2) + e^2 h^2; kick first
+Splitting aba104();             ///< order 4, 7 kicks: e h^10 + e^2 h^4
+Splitting aba864();             ///< order 4, 7 kicks: e h^8 + e^2 h^6 + e^3 h^4
+Splitting aba1064();            ///< order 4, 8 kicks: e h^10 + e^2 h^6 + e^3 h^4
+
 /// The same as a partitioned Runge-Kutta method; `known`: to how much the fractions are.
 std::shared_ptr<const Tableau> tableauOf(const std::vector<SplittingStage>& stages, double known);
 

@@ -7,7 +7,9 @@
 
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -118,6 +120,39 @@ std::vector<Named> all() {
             {"SRKN 6b", srkn6b(), 6},
             {"SRKN 11b", srkn11b(), 11},
             {"SRKN 14a", srkn14a(), 14}};
+}
+
+/// Splittings of A + e B: the degrees up to which the logarithm has no words with one B, two, and three.
+struct OfWeakKicks {
+    const char* name;
+    Splitting splitting;
+    std::size_t kicks;
+    int one, two, three;
+};
+std::vector<OfWeakKicks> ofWeakKicks() {
+    return {{"Gauss 1", gaussKicks(1), 1, 2, 2, 2},     {"Gauss 2", gaussKicks(2), 2, 4, 2, 2},
+            {"Gauss 5", gaussKicks(5), 5, 10, 2, 2},    {"Lobatto 2", lobattoKicks(2), 1, 2, 2, 2},
+            {"Lobatto 4", lobattoKicks(4), 3, 6, 2, 2}, {"ABA(10,4)", aba104(), 7, 10, 4, 4},
+            {"ABA(8,6,4)", aba864(), 7, 8, 6, 4},       {"ABA(10,6,4)", aba1064(), 8, 10, 6, 4}};
+}
+/// How far the kicks are from a rule that is exact for t^(degree - 1): what words with one B are of.
+double ofOneKick(const Splitting& s, int degree) {
+    double sum = 0, node = 0;
+    for (const SplittingStage& stage : s.stages) {
+        if (stage.isKick)
+            sum += stage.fraction * std::pow(node, degree - 1);
+        else
+            node += stage.fraction;
+    }
+    return std::abs(sum - 1.0 / degree);
+}
+/// The largest coefficient of words of a degree with so many Bs.
+double ofKicks(const Splitting& s, int degree, int kicks) {
+    const Eigen::VectorXd log = logarithm(s.stages)[static_cast<std::size_t>(degree)];
+    double most = 0;
+    for (Eigen::Index word = 0; word < log.size(); ++word)
+        if (std::popcount(static_cast<unsigned>(word)) == kicks) most = std::max(most, std::abs(log(word)));
+    return most;
 }
 
 using Quad = boost::multiprecision::float128;
@@ -240,6 +275,29 @@ private slots:
             qInfo("claimed %d, measured q %.3f, p %.3f", s.order, o.q, o.p);
             QVERIFY(std::abs(o.q - s.order) < 0.15);
             QVERIFY(std::abs(o.p - s.order) < 0.15);
+        }
+    }
+    void weakKicksHaveTheirDegrees() {
+        for (const OfWeakKicks& n : ofWeakKicks()) {
+            const auto& s = n.splitting.stages;
+            std::size_t kicks = 0;
+            for (std::size_t i = 0; i < s.size(); ++i) {
+                QCOMPARE(s[i].fraction, s[s.size() - 1 - i].fraction);
+                kicks += s[i].isKick;
+            }
+            QCOMPARE(kicks - (s[0].isKick ? 1 : 0), n.kicks);
+            QCOMPARE(n.splitting.order, std::min({n.one, n.two, n.three}));
+            double most = violation(n.splitting, n.splitting.order, false);
+            for (int degree = 1; degree <= n.one; ++degree)
+                most = std::max(most, ofOneKick(n.splitting, degree));
+            QVERIFY(ofOneKick(n.splitting, n.one + 1) > 1e-8);
+            for (const auto& [bs, upTo] : {std::pair{2, n.two}, {3, n.three}}) {
+                for (int degree = bs + 1; degree <= upTo; ++degree)
+                    most = std::max(most, ofKicks(n.splitting, degree, bs));
+                QVERIFY2(ofKicks(n.splitting, upTo + 1, bs) > 1e-8 || (bs == 3 && upTo == 2), n.name);
+            }
+            qInfo("%s: %.1e", n.name, most);
+            QVERIFY(most < 1e-15);
         }
     }
     void anErrorInTheNinthPlaceIsSeen() {
