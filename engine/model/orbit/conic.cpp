@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/model/conic.hpp"
+#include "engine/model/orbit/conic.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "engine/core/algebra/stumpff.hpp"
+#include "engine/model/orbit/universal_variables.hpp"
 
 namespace extremal {
 namespace {
@@ -15,30 +15,6 @@ namespace {
 using Wide = long double;
 
 }  // namespace
-
-/// G_0 to G_3 at s. Trigonometric or hyperbolic where differences lose little, series elsewhere.
-struct Conic::Universal {
-    double zero, one, two, three;
-
-    Universal(double beta, double s) {
-        const double z = beta * s * s;
-        if (std::abs(z) < 1) {
-            const double c2 = detail::stumpffOf(2, z), c3 = detail::stumpffOf(3, z);
-            zero = 1 - z * c2;
-            one = s * (1 - z * c3);
-            two = s * s * c2;
-            three = s * s * s * c3;
-            return;
-        }
-        const double root = std::sqrt(std::abs(beta)), angle = root * s;
-        const double sine = beta > 0 ? std::sin(angle) : std::sinh(angle);
-        const double half = beta > 0 ? std::sin(angle / 2) : std::sinh(angle / 2);
-        zero = beta > 0 ? std::cos(angle) : std::cosh(angle);
-        one = sine / root;
-        two = 2 * half * half / std::abs(beta);
-        three = (s - one) / beta;
-    }
-};
 
 Conic::Conic(double mu, const State& initial) : mu_(mu), start_(initial.t) {
     const Wide x = initial.x[0], y = initial.x[1], vx = initial.x[2], vy = initial.x[3], m = mu;
@@ -87,7 +63,7 @@ double Conic::solve(double t) const {
     }
     s = std::min(s, most);
     for (int i = 0; i < 100; ++i) {
-        const Universal G(beta_, s);
+        const UniversalFunctions G(beta_, s);
         const double step = (perihelion_ * s + strength * G.three - t) / (perihelion_ + strength * G.two);
         s = std::clamp(s - step, 0.0, most);
         if (!(std::abs(step) > 4e-16 * s)) break;
@@ -98,7 +74,7 @@ double Conic::solve(double t) const {
 void Conic::operator()(double t, double* x) const {
     double since = sincePerihelion_ + (t - start_);
     if (beta_ > 0) since = std::remainder(since, 2 * std::numbers::pi * mu_ / (beta_ * std::sqrt(beta_)));
-    const Universal G(beta_, std::copysign(solve(std::abs(since)), since));
+    const UniversalFunctions G(beta_, std::copysign(solve(std::abs(since)), since));
     const double rate = 1 / (perihelion_ + mu_ * e_ * G.two);
     const double u = perihelion_ - mu_ * G.two, v = L_ * G.one;
     const double ut = -mu_ * G.one * rate, vt = L_ * G.zero * rate;

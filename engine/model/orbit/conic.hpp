@@ -39,7 +39,6 @@ public:
     double px = 1, py = 0, qx = 0, qy = 1;
 
 private:
-    struct Universal;
     double solve(double t) const;
 
     bool isKnown_ = false;

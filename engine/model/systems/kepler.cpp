@@ -3,7 +3,7 @@
 ///
 /// Exact solution in the basis of the perihelion: of ellipses up to e = 0.9 by Kepler's equation, at many
 /// times together; of all other orbits, the parabola and its neighbours among them, by universal variables
-/// (model/conic.hpp). Motion through the centre has no exact solution here: its reference is computed.
+/// (model/orbit/conic.hpp). Motion through the centre has no exact solution here: its reference is computed.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/model/bind.hpp"
-#include "engine/model/conic.hpp"
+#include "engine/model/orbit/conic.hpp"
 #include "engine/model/parameters.hpp"
 #include "engine/model/system.hpp"
 
