@@ -172,6 +172,8 @@ struct Ground {
 const Ground grounds[] = {
     {R"({"extremal":1,"model":{"type":"kepler"},"initial":{"q":[0.4,0],"p":[0,2]},"time":{"end":2})",
      "midpoint", 0.02},
+    {R"J({"extremal":1,"model":{"type":"lagrangian","coordinates":["x","y","u","v"],"parameters":{"m":0.05},"lagrangian":"(x_t^2+y_t^2)/2+m/2*(u_t^2+v_t^2)+1/sqrt(x^2+y^2)+m/sqrt(u^2+v^2)+m/20/sqrt((x-u)^2+(y-v)^2)"},"initial":{"q":[1,0,-2,0.1],"v":[0,1.1,0,-0.6]},"time":{"end":8})J",
+     "kepler-arcs-1", 0.1},
     // Of the oscillation 0.5 rad a step, and 10 for the spaces that contain it.
     {R"({"extremal":1,"model":{"type":"spring-pendulum"},"initial":{"q":[0.1,1],"p":[0,0]},"time":{"end":2})",
      "midpoint", 0.005},

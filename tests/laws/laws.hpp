@@ -125,6 +125,17 @@ inline double distance(const std::vector<double>& a, const std::vector<double>& 
     return std::sqrt(sum);
 }
 
+/// A star and two planets in a plane, of masses 1, `second` and 2/5 of it, x and y of one after the other.
+inline System planets(double second = 0.05) {
+    return systemNamed("lagrangian",
+                       {{"coordinates", Value(Value::Array{"x0", "y0", "x1", "y1", "x2", "y2"})},
+                        {"parameters", Value(Value::Object{{"m", second}, {"n", 0.4 * second}})},
+                        {"lagrangian",
+                         "(x0_t^2 + y0_t^2)/2 + m/2*(x1_t^2 + y1_t^2) + n/2*(x2_t^2 + y2_t^2) + "
+                         "m/sqrt((x1-x0)^2 + (y1-y0)^2) + n/sqrt((x2-x0)^2 + (y2-y0)^2) + "
+                         "m*n/sqrt((x2-x1)^2 + (y2-y1)^2)"}});
+}
+
 inline const State keplerStart{0, 0, {0.4, 0, 0, 2}};
 
 }  // namespace extremal::laws

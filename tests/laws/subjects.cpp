@@ -78,6 +78,12 @@ Subject rotatingSpring() {
     return subjectOf("rotating spring", system, {0, 0, {0.01, 0.3, 0.05, 1}}, 0, 1);
 }
 
+/// Planets whose pull on each other is felt at the steps of the laws, as that of the outer ones is not.
+Subject heavyPlanets() {
+    return subjectOf("heavy planets", planets(),
+                     {0, 0, {0, 0, 1, 0, -0.3, 1.9, 0, 0, 0, 0.05, -0.014, -0.002}}, 0, 4);
+}
+
 /// A charge without mass in a field that grows with the distance, whose one-form has both components and is
 /// not affine: on the forms of the presets projections do no harm.
 Subject masslessCharge() {
@@ -191,6 +197,7 @@ std::vector<Subject> everySubject(SubjectKind kind) {
             subjectOf(std::string(preset->id), system, initialState(scene, system), 0, longest));
     }
     if (kind == SubjectKind::coordinates) subjects.push_back(rotatingSpring());
+    if (kind == SubjectKind::coordinates) subjects.push_back(heavyPlanets());
     if (kind == SubjectKind::other) subjects.push_back(masslessCharge());
     return subjects;
 }

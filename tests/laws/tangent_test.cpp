@@ -39,6 +39,7 @@ std::vector<Ground> everyMotion() {
                       lie = R"(,"time":{"end":2},"schemes":[{"scheme":"lie-1","step":0.1}]})";
     return {
         {"kepler", systemNamed("kepler"), keplerStart, 0.05},
+        {"planets", planets(), {0, 0, {0, 0, 1, 0, -0.3, 1.9, 0, 0, 0, 0.05, -0.014, -0.002}}, 0.1},
         {"pendulum", systemNamed("pendulum", {{"g", 1.0}}), {0, 0, {2, 0.3}}, 0.1},
         {"double pendulum", systemNamed("double-pendulum"), {0, 0, {2, 2.5, 0.3, -0.2}}, 0.01},
         {"charged particle", systemNamed("charged-particle"), {0, 0, {1, 0.2, 0.1, 0.2, 0.7, 0.1}}, 0.05},

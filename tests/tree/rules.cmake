@@ -37,7 +37,7 @@ set(names_of_elliptic elliptic-elements)
 set(names_of_field tent)
 set(names_of_asynchronous asynchronous courant)
 set(names_of_free_knot free-knots)
-set(names_of_free_motion free-motion)
+set(names_of_free_motion free-motion kepler-arcs)
 set(names_of_spectral_field fourier-field)
 set(names_of_moving_mesh moving-mesh relaxation speed_limit action-error)
 

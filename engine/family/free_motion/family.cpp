@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Free motion between kicks of the potential: the explicit schemes of coordinates with constant masses, of
-/// rigid bodies and of wave functions (Leok 2004, sec. 2, 3 and 8 for the spaces; Blanes and Moan 2002 for
-/// the knots).
+/// Known motions between kicks: free ones between kicks of the potential, the explicit schemes of coordinates
+/// with constant masses, of rigid bodies and of wave functions (Leok 2004, sec. 2, 3 and 8 for the spaces;
+/// Blanes and Moan 2002 for the knots), and Kepler arcs between kicks of what planets do to each other
+/// (Wisdom and Holman 1991; Laskar and Robutel 2001 and Blanes et al. 2013 for the knots).
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "engine/core/problem.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/free_motion/free_body_motion.hpp"
+#include "engine/family/free_motion/kepler_motion.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/family/parts/described_on_system.hpp"
 #include "engine/family/parts/step_tableau.hpp"
 #include "engine/family/parts/variant.hpp"
 #include "engine/integrator/oscillator_step.hpp"
+#include "engine/model/parts/held_bodies.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/model/wave/interaction.hpp"
 #include "engine/step/partitioned.hpp"
@@ -32,7 +37,7 @@ struct NamedSplitting {
     const char* knownAs;
     Splitting (*make)();
 };
-constexpr std::array<NamedSplitting, 7> splittings{
+constexpr std::array<NamedSplitting, 7> freeKnots{
     {{"strang", "F2", "Strang splitting", strang},
      {"suzuki-4", "F4s", "Suzuki 4", suzuki4},
      {"blanes-moan-s6", "F4b", "Blanes-Moan S6", blanesMoanS6},
@@ -40,29 +45,58 @@ constexpr std::array<NamedSplitting, 7> splittings{
      {"blanes-moan-s10", "F6b", "Blanes-Moan S10", blanesMoanS10},
      {"srkn-11b", "F6", "Blanes-Moan SRKN 11b", srkn11b},
      {"srkn-14a", "F6a", "Blanes-Moan SRKN 14a", srkn14a}}};
+constexpr std::array<NamedSplitting, 11> keplerKnots{
+    {{"strang", "K2", "Wisdom-Holman", strang},
+     {"lobatto-3", "K2l", "Laskar-Robutel SBAB2", [] { return lobattoKicks(3); }},
+     {"lobatto-4", "K2m", "Laskar-Robutel SBAB3", [] { return lobattoKicks(4); }},
+     {"gauss-2", "K2g", "Laskar-Robutel SABA2", [] { return gaussKicks(2); }},
+     {"gauss-3", "K2h", "Laskar-Robutel SABA3", [] { return gaussKicks(3); }},
+     {"aba-10-4", "K4b", "Blanes et al. ABA(10,4)", aba104},
+     {"aba-8-6-4", "K4c", "Blanes et al. ABA(8,6,4)", aba864},
+     {"aba-10-6-4", "K4", "Blanes et al. ABA(10,6,4)", aba1064},
+     {"srkn-6b", "K4d", "Blanes-Moan SRKN 6b", srkn6b},
+     {"srkn-11b", "K6b", "Blanes-Moan SRKN 11b", srkn11b},
+     {"srkn-14a", "K6", "Blanes-Moan SRKN 14a", srkn14a}}};
 
+bool isOfArcs(const Settings& space) { return space.type == "kepler-arcs"; }
+
+std::span<const NamedSplitting> knotsOf(bool isOfArcs) {
+    if (isOfArcs) return keplerKnots;
+    return freeKnots;
+}
 const NamedSplitting& splittingOf(const Settings& space) {
     const std::string id = space.text("knots");
-    return *std::find_if(splittings.begin(), splittings.end(),
-                         [&](const NamedSplitting& each) { return id == each.id; });
+    const auto all = knotsOf(isOfArcs(space));
+    return *std::find_if(all.begin(), all.end(), [&](const NamedSplitting& each) { return id == each.id; });
 }
 
 constexpr const char* needed = "a kinetic energy whose motion is known, and a potential";
+constexpr const char* neededOfArcs =
+    "bodies that one of them holds by a pull like 1/r^2, ten times as heavy as all others, or the origin";
 
-SpaceEntry freeMotions() {
+SpaceEntry spaceOf(const char* id, const char* title, const char* description, const char* knots,
+                   const char* needs) {
     std::vector<std::string> ids;
-    for (const NamedSplitting& each : splittings) ids.emplace_back(each.id);
+    for (const NamedSplitting& each : knotsOf(isOfArcs({id, {}, {}}))) ids.emplace_back(each.id);
     SpaceEntry e;
-    e.item = {
-        "free-motion",
-        "free motion",
-        "Free motions between knots of the step, at which the potential kicks: explicit.",
-        {choiceField("knots", "knots", ids,
-                     "Where the knots are on the step and what the kicks weigh: strang (order 2), suzuki-4, "
-                     "blanes-moan-s6, srkn-6b (4), blanes-moan-s10, srkn-11b, srkn-14a (6).")},
-        {},
-        needed};
+    e.item = {id, title, description, {choiceField("knots", "knots", ids, knots)}, {}, needs};
     return e;
+}
+SpaceEntry freeMotions() {
+    return spaceOf("free-motion", "free motion",
+                   "Free motions between knots of the step, at which the potential kicks: explicit.",
+                   "Where the knots are on the step and what the kicks weigh: strang (order 2), suzuki-4, "
+                   "blanes-moan-s6, srkn-6b (4), blanes-moan-s10, srkn-11b, srkn-14a (6).",
+                   needed);
+}
+SpaceEntry keplerArcs() {
+    return spaceOf("kepler-arcs", "Kepler arcs",
+                   "Kepler motions of all bodies about the heavy one between knots of the step, at which the "
+                   "other forces kick: explicit.",
+                   "Where the knots are on the step and what the kicks weigh: strang, lobatto-3, lobatto-4, "
+                   "gauss-2, gauss-3 (order 2), aba-10-4, aba-8-6-4, aba-10-6-4, srkn-6b (4), srkn-11b, "
+                   "srkn-14a (6). Where kicks are weak, the nodes of a rule count more than the order.",
+                   neededOfArcs);
 }
 
 Properties describeFreeMotion(const Discretization& d) {
@@ -73,11 +107,13 @@ Properties describeFreeMotion(const Discretization& d) {
     Properties p;
     p.claims = {splitting.order, true, true, {"momentum"}};
     p.curveOrder = std::min(splitting.order, 4);  // cubic Hermite interpolation
-    p.space = "free motions with " + std::to_string(kicks) + " kicks";
+    p.space =
+        (isOfArcs(d.space) ? "Kepler arcs with " : "free motions with ") + std::to_string(kicks) + " kicks";
     p.knownAs = named.knownAs;
     p.shortName = named.shortName;
     p.isExplicit = true;
-    p.stabilityLimit = stabilityLimit(splitting);
+    p.stabilityLimit =
+        isOfArcs(d.space) ? std::numeric_limits<double>::infinity() : stabilityLimit(splitting);
     return p;
 }
 
@@ -110,30 +146,50 @@ std::string unknownBecause(const System& system) {
                  "on the place alone";
 }
 
+/// Why Kepler arcs cannot be the curves of a step; empty if they can.
+std::string mismatchOf(const Discretization& d, const System& system) {
+    if (!isOfArcs(d.space) || system.parts.find<HeldBodies>()) return {};
+    return "Kepler arcs are for " + std::string(neededOfArcs);
+}
+
 std::unique_ptr<Integrator> makeOn(const System& system, const Discretization& d, double step) {
     const Splitting splitting = splittingOf(d.space).make();
+    if (const std::string problem = mismatchOf(d, system); !problem.empty())
+        throw InvalidScene("/space/type", problem, "free-motion");
+    if (isOfArcs(d.space)) return makeKeplerMotion(system, system.part<HeldBodies>(), splitting, step);
     if (system.parts.find<Wave>()) return makeWaveSplitting(system, step, splitting);
     if (system.parts.find<Body>()) return makeFreeBodyMotion(system, splitting, step);
     return makePartitioned(flowOf(system), step, partitionedStages(splitting, true));
 }
 
-ChoiceGrid choices(const System&) {
+ChoiceGrid choices(const System& system) {
     ChoiceGrid grid;
-    grid.subtitle = "free motion between kicks";
-    grid.rows.push_back({"free motion", {}});
-    for (const NamedSplitting& each : splittings) {
+    const bool isOfArcs = system.parts.find<HeldBodies>();
+    const std::string space = isOfArcs ? "kepler-arcs" : "free-motion",
+                      title = isOfArcs ? "Kepler arcs" : "free motion";
+    grid.subtitle = title + " between kicks";
+    grid.rows.push_back({title, {}});
+    for (const NamedSplitting& each : knotsOf(isOfArcs)) {
         ChoiceGrid::Cell cell;
-        cell.discretization.space = {"free-motion", {{"knots", each.id}}, {}};
+        cell.discretization.space = {space, {{"knots", each.id}}, {}};
         cell.discretization.quadrature = {"auto", {}, {}};
         cell.text = each.shortName;
-        cell.id = std::string("free-motion.") + each.id;
-        cell.title = std::string("free motion, ") + each.id;
+        cell.id = space + "." + each.id;
+        cell.title = title + ", " + each.id;
         grid.cells.push_back(std::move(cell));
     }
     return grid;
 }
 
-WrittenAction written(const Discretization&) {
+WrittenAction written(const Discretization& d) {
+    if (isOfArcs(d.space))
+        return {
+            "The curve is a Kepler motion of each body about those inside it between knots r_j of the step, "
+            "in Jacobi coordinates, whose distances in time are a_j h; U is what the potential is besides.",
+            {{"S = Σ_j S_K(r_{j−1}, r_j; a_j h) − h Σ_j b_j U(r_j)",
+              "S = \\sum_j S_K(r_{j-1}, r_j; a_j h) - h \\sum_j b_j\\, U(r_j)"}},
+            {{"p_j⁺ = p_j⁻ − b_j h dU(r_j)  at every knot",
+              "p_j^+ = p_j^- - b_j h\\, dU(r_j) \\quad \\text{at every knot}"}}};
     return {"The curve is a free motion between knots x_j of the step, whose distances in time are a_j h.",
             {{"S = Σ_j S_T(x_{j−1}, x_j; a_j h) − h Σ_j b_j U(x_j)",
               "S = \\sum_j S_T(x_{j-1}, x_j; a_j h) - h \\sum_j b_j\\, U(x_j)"}},
@@ -145,9 +201,11 @@ WrittenAction written(const Discretization&) {
 
 Family free_motion() {
     Family f;
-    f.item = {"free_motion", "free motion", "Free motions between kicks of the potential.", {}, {}, needed};
+    f.item = {
+        "free_motion", "free motion", "Free motions, or Kepler arcs, between kicks of the rest.", {}, {},
+        needed};
     f.source = "Leok 2004, sec. 2, 3 and 8";
-    f.spaces = {freeMotions()};
+    f.spaces = {freeMotions(), keplerArcs()};
     f.takes = flowProblems().with<Body, Wave, Interaction, Rotation>();
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // its nodes are the knots
@@ -160,8 +218,12 @@ Family free_motion() {
     f.make = makeOn;
     f.parts.set(
         SystemCondition{[](const System& system) { return unknownBecause(system).empty(); }, unknownBecause});
+    f.parts.set(SchemeCondition{mismatchOf});
     f.parts.set(DescribedOnSystem{describeOn});
     f.parts.set(StepTableau{[](const Discretization& d, double) {
+        if (isOfArcs(d.space))
+            throw InvalidScene("", "its steps are Kepler motions between kicks, which no tableau describes",
+                               "choose the space free-motion for a tableau of the same knots");
         return tableauOf(splittingOf(d.space).make().stages, 1e-15);  // printed to 15 digits
     }});
     f.parts.set(Variant{});

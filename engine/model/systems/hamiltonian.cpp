@@ -8,6 +8,7 @@
 
 #include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/model/orbit/held_bodies.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/phase/typed_hamiltonian.hpp"
@@ -55,6 +56,7 @@ System makeHamiltonian(const Settings& settings) {
     for (const std::string& name : coordinates.coordinates)
         s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
     setMotion(s, made.mechanics);
+    if (auto held = heldBodiesIn(flowOf(made.mechanics))) s.parts.set(*std::move(held));
     for (const int i : made.cyclic) {
         const auto k = static_cast<std::size_t>(i);
         s.momenta.push_back({coordinates.coordinates[k], "p_" + s.coordinates[k].symbol, "",

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/core/problem.hpp"
+#include "engine/model/orbit/held_bodies.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/parts/typed_parts.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
@@ -28,6 +29,7 @@ System makeLagrangian(const Settings& given) {
         s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
     s.parts.set(std::move(made.mechanics));
     s.parts.set(typed::entriesOf(s.mechanics()));
+    if (auto held = heldBodiesIn(s.mechanics())) s.parts.set(*std::move(held));
     if (auto constraint = typed::constraintOf(settings, formula)) s.parts.set(*std::move(constraint));
     if (auto force = typed::forceOf(settings, formula)) s.parts.set(*std::move(force));
     if (auto rolling = typed::rollingOf(settings, formula)) s.parts.set(*std::move(rolling));

@@ -9,6 +9,7 @@
 
 #include "engine/model/bind.hpp"
 #include "engine/model/parameters.hpp"
+#include "engine/model/parts/held_bodies.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal::systems {
@@ -131,6 +132,15 @@ std::vector<MomentumMap> momenta() {
     return all;
 }
 
+HeldBodies planets(double G) {
+    HeldBodies all;
+    for (int i = 0; const Planet& body : table) {
+        all.bodies.push_back({body.mass, {i, i + 1, i + 2}, i == 0 ? 0 : G * table[0].mass * body.mass});
+        i += 3;
+    }
+    return all;
+}
+
 System makeOuterSolarSystem(const Settings& settings) {
     System s;
     s.id = "outer-solar-system";
@@ -141,7 +151,9 @@ System makeOuterSolarSystem(const Settings& settings) {
                                      std::string(axis) + "_" + body.title, "au", "M☉ au/d"});
     s.timeUnit = "d";
     s.energyUnit = "M☉ au²/d²";
-    s.parts.set(bindMechanics<double>(withParameters(settings, outerSolarSystemFields())));
+    const auto model = withParameters(settings, outerSolarSystemFields());
+    s.parts.set(bindMechanics<double>(model));
+    s.parts.set(planets(model.G));
     s.momenta = momenta();
     s.draw = [](const double* x, Drawing& drawing) {
         for (std::size_t i = 0; i < bodies; ++i)
