@@ -3,72 +3,17 @@
 #pragma once
 
 #include <cmath>
-#include <map>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "engine/core/text/text.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/sweep.hpp"
+#include "tests/bench/breather_by_hand.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/scheme_makers.hpp"
-#include "tests/bench/wave_costs.hpp"
 
 namespace extremal::bench {
-
-/// The exact flow of u_tt = u_xx in Fourier modes between kicks by -sin u, in n steps: the L2 error at the
-/// end. The transform is that of u + i v; with w the conjugate of the mode -k, the flow over t takes the mode
-/// z to
-///
-///     (cos kt - i/2 (k + 1/k) sin kt) z - i/2 (k - 1/k) sin kt w.
-inline double breatherByHand(int modes, const Splitting& table, int n) {
-    constexpr double length = 160, end = 100, omega = 0.9;
-    const auto size = static_cast<std::size_t>(modes);
-    static std::map<int, System> systems;  // for their transforms
-    if (!systems.contains(modes)) systems.emplace(modes, onCircle("0", 1, modes));
-    const Fourier& fourier = systems.at(modes).hamiltonian()->fourier();
-    const double dt = end / n, k0 = std::sqrt(1 - omega * omega), dx = length / modes;
-    struct Flow {
-        std::vector<Complex> own, other;
-    };
-    std::vector<Flow> flows;
-    for (const auto& stage : table.stages) {
-        Flow flow;
-        const double t = stage.isKick ? 0 : stage.fraction * dt;
-        for (int j = 0; j < modes && !stage.isKick; ++j) {
-            const double k = 2 * std::numbers::pi / length * (j <= modes / 2 ? j : j - modes);
-            const double s = k == 0 ? t : std::sin(k * t) / k, ks = k * std::sin(k * t);
-            flow.own.push_back(Complex(std::cos(k * t), -0.5 * (ks + s)) / static_cast<double>(modes));
-            flow.other.push_back(Complex(0, -0.5 * (ks - s)) / static_cast<double>(modes));
-        }
-        flows.push_back(std::move(flow));
-    }
-    // u = 4 atan(k/w sin(w t)/cosh(k x)): at t = 0 it is at rest in u, and moves.
-    std::vector<Complex> z(size), modesOf(size), next(size);
-    for (int j = 0; j < modes; ++j)
-        z[static_cast<std::size_t>(j)] = {0, 4 * k0 / std::cosh(k0 * (-length / 2 + j * dx))};
-    for (int step = 0; step < n; ++step)
-        for (std::size_t s = 0; s < table.stages.size(); ++s) {
-            if (table.stages[s].isKick) {
-                const double h = table.stages[s].fraction * dt;
-                for (Complex& each : z) each -= Complex(0, h * std::sin(each.real()));
-                continue;
-            }
-            fourier.rawToCoefficients(z.data(), modesOf.data());
-            for (std::size_t j = 0; j < size; ++j)
-                next[j] =
-                    flows[s].own[j] * modesOf[j] + flows[s].other[j] * std::conj(modesOf[(size - j) % size]);
-            fourier.rawToNodes(next.data(), z.data());
-        }
-    double sum = 0;
-    for (int j = 0; j < modes; ++j) {
-        const double x = -length / 2 + j * dx,
-                     u = 4 * std::atan(k0 / omega * std::sin(omega * end) / std::cosh(k0 * x));
-        sum += dx * (z[static_cast<std::size_t>(j)].real() - u) * (z[static_cast<std::size_t>(j)].real() - u);
-    }
-    return std::sqrt(sum);
-}
 
 /// Fourier modes with Gauss in time, over numbers of steps: whole runs, tables and all.
 inline void spectralBreather(std::vector<Curve>& curves, int modes) {
@@ -134,7 +79,7 @@ inline void breather(PeerTable& table) {
          {80, 120, 160, 240, 320}},
     };
     std::vector<Curve> curves;
-    for (const int cells : {192, 256, 320, 384}) spectralBreather(curves, cells);
+    for (const int cells : {192, 224, 256, 320, 384}) spectralBreather(curves, cells);
     for (const Code& code : codes) {
         Curve curve{code.label, false, {{}}};
         for (const int cells : code.cells) {
@@ -167,13 +112,7 @@ inline void breather(PeerTable& table) {
         }
         curves.push_back(curve);
     }
-    for (const int modes : {192, 256, 320, 384, 512})
-        for (const bool isLong : {false, true})
-            curves.push_back(measure(std::string(isLong ? "SRKN 14a" : "SRKN 11b") + " with FFTW", true,
-                                     counts(30, 4000, 1.12), 0.1, [&](double n) {
-                                         return std::vector<double>{breatherByHand(
-                                             modes, isLong ? srkn14a() : srkn11b(), static_cast<int>(n))};
-                                     }));
+    addBreathersByHand(curves);
     table.add("P6 breather", curves, 0);
 }
 

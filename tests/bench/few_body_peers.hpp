@@ -5,19 +5,20 @@
 /// P8   Henon-Heiles at E = 1/12, the place at t = 100
 /// P9   chain of 64 masses with hardening springs between walls, all places at t = 100
 /// P10  outer solar system, all places after 10,000 years, in astronomical units
+/// P10l the same after 100,000 years, where round-off leaves 1e-9 to few
 #pragma once
-
-#include <boost/numeric/odeint.hpp>
 
 #include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "engine/integrator/composition.hpp"
+#include "tests/bench/adaptive_peers.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/planet_peers.hpp"
 #include "tests/bench/scheme_makers.hpp"
@@ -25,20 +26,21 @@
 
 namespace extremal::bench {
 
-namespace odeint = boost::numeric::odeint;
-
 /// M x'' = f(x), as a system and by hand.
 template <std::size_t d>
 struct FewBodies {
     std::string name;
-    System system;
-    std::array<double, 2 * d> start;  ///< positions, velocities
-    double end;
-    double leastSteps, mostSteps;
+    System system = {};
+    std::array<double, 2 * d> start = {};  ///< positions, velocities
+    double end = 0;
+    double leastSteps = 0, mostSteps = 0;
     double longest = 0.03;  ///< seconds of a run
-    double mostTolerance = 1e-3;
+    std::vector<double> tolerances = ratios(1e-3, 1e-16, 0.4);
     double ratio = 1.12;  ///< of numbers of steps
     int reference = 4;    ///< its steps: so many for one of the least, and 4000
+    /// Of long runs: the codes that come near to the best ones of shorter runs; empty: all.
+    std::set<std::string> only = {};
+    std::vector<std::pair<std::string, Make>> schemes = {};  ///< of ours, for this problem alone
 };
 
 /// A peer of one problem alone: `end(steps)`.
@@ -52,7 +54,6 @@ struct OwnPeer {
 template <std::size_t d, class Accelerate, class Coefficients>
 void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& accelerate,
                   Coefficients coefficients, const std::vector<OwnPeer<d>>& others = {}) {
-    using Array = std::array<double, 2 * d>;
     State from{0, 0, {p.start.begin(), p.start.end()}};
     for (std::size_t i = 0; i < d; ++i) from.x[d + i] *= p.system.mechanics().masses[i];
     const auto endOf = [&](const Make& make, double n) {
@@ -71,68 +72,47 @@ void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& acc
         for (std::size_t i = 0; i < d; ++i) sum += (x[i] - exact[i]) * (x[i] - exact[i]);
         return std::vector<double>{std::sqrt(sum)};
     };
-    std::vector<Curve> curves;
-    const std::vector<double> steps = counts(p.leastSteps, p.mostSteps, p.ratio),
-                              tolerances = ratios(p.mostTolerance, 1e-16, 0.4);
-    const double longest = p.longest;
+    Curves curves{p.longest, p.only};
+    const std::vector<double> steps = counts(p.leastSteps, p.mostSteps, p.ratio);
     for (const int s : {3, 4, 6, 8, 10, 12})
         for (const double tolerance : {0.0, 1e-9}) {
             Discretization g = *namedScheme("galerkin-gauss-" + std::to_string(s));
             if (tolerance > 0) g.solver.keys.emplace_back("tolerance", tolerance);
-            curves.push_back(measure("Gauss " + std::to_string(2 * s) + (tolerance > 0 ? " to 1e-9" : ""),
-                                     false, steps, longest,
-                                     [&](double n) { return error(endOf(schemeOf(g), n)); }));
+            curves.add("Gauss " + std::to_string(2 * s) + (tolerance > 0 ? " to 1e-9" : ""), false, steps,
+                       [&](double n) { return error(endOf(schemeOf(g), n)); });
         }
     for (const char* knots : {"strang", "srkn-6b", "srkn-11b", "srkn-14a", "blanes-moan-s10"})
-        curves.push_back(measure(std::string("free motion ") + knots, false, steps, longest,
-                                 [&](double n) { return error(endOf(freeMotion(knots), n)); }));
+        curves.add(std::string("free motion ") + knots, false, steps,
+                   [&](double n) { return error(endOf(freeMotion(knots), n)); });
     for (const double order : {6, 8}) {
         const Make verlet = schemeOf(*namedScheme("stormer-verlet-pair"));
         const std::vector<double> parts = compositionParts({"kahan-li", {{"order", order}}, {}}, 2);
         const Make whole = [&](const System& system, const State& start, double h) {
             return composed(parts, *verlet(system, start, h));
         };
-        curves.push_back(measure("Kahan-Li " + std::to_string(static_cast<int>(order)), false, steps, longest,
-                                 [&](double n) { return error(endOf(whole, n)); }));
+        curves.add("Kahan-Li " + std::to_string(static_cast<int>(order)), false, steps,
+                   [&](double n) { return error(endOf(whole, n)); });
     }
-    curves.push_back(measure("Gauss collocation 16", true, steps, longest, [&](double n) {
+    curves.add("Gauss collocation 16", true, steps, [&](double n) {
         return error(endOf(baselineOf("gauss-collocation", {{"stages", 8.0}}), n));
-    }));
+    });
     for (const char* id : {"srkn-6b", "srkn-11b", "srkn-14a", "blanes-moan-s10"})
-        curves.push_back(
-            measure(id, true, steps, longest, [&](double n) { return error(endOf(baselineOf(id), n)); }));
-    const auto byOdeint = [&](const auto& stepper) {
-        Array y = p.start;
-        odeint::integrate_adaptive(
-            stepper,
-            [&](const Array& x, Array& dx, double) {
-                for (std::size_t i = 0; i < d; ++i) dx[i] = x[d + i];
-                accelerate(x.data(), dx.data() + d);
-            },
-            y, 0.0, p.end, 0.01 * p.end / 100);
-        return error(y);
-    };
-    curves.push_back(measure("odeint rkf78", true, tolerances, longest, [&](double e) {
-        return byOdeint(odeint::make_controlled(e, e, odeint::runge_kutta_fehlberg78<Array>()));
-    }));
-    curves.push_back(measure("odeint bulirsch-stoer", true, tolerances, longest,
-                             [&](double e) { return byOdeint(odeint::bulirsch_stoer<Array>(e, e)); }));
-    curves.push_back(measure("rk8pd", true, tolerances, longest, [&](double e) {
-        const auto integrator = baselineOf("rk8pd")(p.system, from, e);
-        State state = from;
-        while (state.t < p.end)
-            if (integrator->advance(state, p.end).outcome != Outcome::converged) return failed;
-        return error(state.x);
-    }));
-    curves.push_back(measure("Taylor by hand", true, tolerances, longest, [&](double e) {
-        Array y = p.start;
-        integrateByTaylor<d>(y, p.end, e, coefficients);
-        return error(y);
-    }));
+        curves.add(id, true, steps, [&](double n) { return error(endOf(baselineOf(id), n)); });
+    addAdaptivePeers<d>(curves, {p.system, from, p.start, p.end, p.tolerances}, accelerate, coefficients,
+                        error);
+    for (const auto& [name, make] : p.schemes)
+        curves.add(name, false, steps, [&](double n) { return error(endOf(make, n)); });
     for (const OwnPeer<d>& other : others)
-        curves.push_back(
-            measure(other.name, true, steps, longest, [&](double n) { return error(other.end(n)); }));
-    table.add(p.name, curves, 0);
+        curves.add(other.name, true, steps, [&](double n) { return error(other.end(n)); });
+    table.add(p.name, curves.all, 0);
+}
+
+/// What weak kicks are made for, drift first.
+inline std::vector<std::pair<std::string, Splitting>> keplerKnots() {
+    std::vector<std::pair<std::string, Splitting>> all{
+        {"ABA(10,4)", aba104()}, {"ABA(8,6,4)", aba864()}, {"ABA(10,6,4)", aba1064()}};
+    for (const int n : {1, 2, 3, 4}) all.emplace_back("Gauss " + std::to_string(n), gaussKicks(n));
+    return all;
 }
 
 inline void henonHeiles(PeerTable& table) {
@@ -195,9 +175,9 @@ inline void springChain(PeerTable& table) {
         });
 }
 
-inline void outerPlanets(PeerTable& table) {
+inline void outerPlanets(PeerTable& table, double years, FewBodies<Planets::d> settings) {
     constexpr std::size_t d = Planets::d;
-    const double G = 2.95912208286e-4, years = 1e4, end = 365.25 * years;
+    const double G = 2.95912208286e-4, end = 365.25 * years;
     const ModelEntry& entry = *findModel("outer-solar-system");
     const System system = entry.make({"outer-solar-system", {{"G", G}}, {}});
     Planets::Places masses;
@@ -209,15 +189,62 @@ inline void outerPlanets(PeerTable& table) {
     }
     Planets planets(G, masses);
     std::vector<OwnPeer<d>> others;
-    for (const int nodes : {1, 2, 3, 4, 6})
-        others.push_back(
-            {"Kepler arcs, kicks at Gauss " + std::to_string(nodes),
-             [&planets, start, end, nodes](double n) { return planets.byKeplerArcs(start, end, n, nodes); }});
+    for (const auto& [name, table] : keplerKnots())
+        others.push_back({"arcs by hand, " + name, [&, knots = table](double n) {
+                              return planets.byKeplerArcs(start, end, n, knots);
+                          }});
+    for (const char* knots :
+         {"strang", "lobatto-3", "lobatto-4", "gauss-3", "aba-10-4", "aba-8-6-4", "aba-10-6-4", "srkn-14a"})
+        settings.schemes.push_back({std::string("Kepler arcs, ") + knots, keplerArcs(knots)});
+    settings.system = system;
+    settings.start = start;
+    settings.end = end;
+    settings.leastSteps = 0.5 * years;
     addFewBodies<d>(
-        table, {"P10 outer planets", system, start, end, 5000, 1e6, 0.5, 1e-6, 1.2, 4},
-        [&planets](const double* x, double* a) { planets.accelerate(x, a); },
+        table, settings, [&planets](const double* x, double* a) { planets.accelerate(x, a); },
         [&planets](const std::array<Taylor, d>& x, std::size_t n) { return planets.coefficients(x, n); },
         others);
+}
+inline void outerPlanets(PeerTable& table) {
+    outerPlanets(table, 1e4,
+                 {.name = "P10 outer planets",
+                  .mostSteps = 1e6,
+                  .longest = 0.5,
+                  .tolerances = ratios(1e-6, 1e-16, 0.4),
+                  .ratio = 1.2});
+}
+/// With codes that come near to the best ones of the shorter time.
+inline void outerPlanetsLong(PeerTable& table) {
+    outerPlanets(table, 1e5,
+                 {.name = "P10l planets, 1e5 years",
+                  .mostSteps = 1e7,
+                  .longest = 0.8,
+                  .tolerances = ratios(1e-9, 1e-16, 0.3),
+                  .ratio = 1.25,
+                  .only = {"Gauss 12",
+                           "Gauss 16",
+                           "Gauss 16 to 1e-9",
+                           "Gauss 20",
+                           "Gauss 24",
+                           "free motion srkn-14a",
+                           "free motion blanes-moan-s10",
+                           "Kahan-Li 8",
+                           "Gauss collocation 16",
+                           "srkn-14a",
+                           "blanes-moan-s10",
+                           "odeint rkf78",
+                           "Taylor by hand",
+                           "DOP853",
+                           "IAS15",
+                           "IAS15 to 1e-9",
+                           "arcs by hand, Gauss 2",
+                           "arcs by hand, Gauss 3",
+                           "arcs by hand, ABA(10,4)",
+                           "arcs by hand, ABA(10,6,4)",
+                           "Kepler arcs, lobatto-3",
+                           "Kepler arcs, lobatto-4",
+                           "Kepler arcs, aba-10-4",
+                           "Kepler arcs, aba-10-6-4"}});
 }
 
 }  // namespace extremal::bench

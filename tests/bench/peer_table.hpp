@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,18 @@ inline Curve measure(const std::string& name, bool isPeer, const std::vector<dou
     }
     return curve;
 }
+
+/// Those of a problem: the ones it names, or all.
+struct Curves {
+    double longest;
+    std::set<std::string> only = {};
+    std::vector<Curve> all = {};
+
+    void add(const std::string& name, bool isPeer, const std::vector<double>& settings,
+             const std::function<std::vector<double>(double)>& run) {
+        if (only.empty() || only.contains(name)) all.push_back(measure(name, isPeer, settings, longest, run));
+    }
+};
 
 inline std::vector<double> ratios(double from, double to, double factor) {
     std::vector<double> all;

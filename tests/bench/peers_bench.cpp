@@ -7,13 +7,17 @@
 /// P2  free rigid body 1, 2, 3, attitude at t = 100
 /// P2t heavy top, attitude at t = 10
 /// P3  Kepler, e = 0.6, position after 100 periods
-/// P5  wave function in a cosine well, N = 256 and 512, at t = 1
-/// P6  sine-Gordon breather, w = 0.9, to t = 100
-/// P6n nonlinear Schroedinger equation, 2 sech x, over one period, against the splittings of the program
+/// P5  wave function in a cosine well, N = 256 and 512, at t = 1; also against codes that are told beforehand
+///     which energies it has (wave_by_hand.hpp)
+/// P6  sine-Gordon breather, w = 0.9, to t = 100 (breather_by_hand.hpp)
+/// P6n nonlinear Schroedinger equation, 2 sech x, over one period (soliton_by_hand.hpp)
 /// P7  chain of 100 balls on rods, the place of the last at t = 5, against RATTLE and IDA (chain_peers.hpp)
 /// P8  Henon-Heiles, the place at t = 100 (few_body_peers.hpp)
 /// P9  chain of 64 masses and springs, all places at t = 100
-/// P10 outer solar system, all places after 10,000 years
+/// P10 outer solar system, all places after 10,000 years; P10l: 100,000 years
+/// P11 three bodies of masses 3, 4, 5 from rest, all places at t = 10 (encounter_peers.hpp)
+/// P12 four vortices, all places at t = 60 (vortex_peers.hpp)
+/// P13 four-bar with a motor and a damper, the places of its joints at t = 10 (mechanism_peers.hpp)
 ///
 /// Peers are loops by hand around Boost.odeint and splittings, and the methods in common use that the program
 /// offers beside its own (GSL, SUNDIALS, SRKN, impulse, Gauss collocation with its nodes in vector registers,
@@ -33,12 +37,15 @@
 #include "engine/core/algebra/instruction_set.hpp"
 #include "tests/bench/breather_peers.hpp"
 #include "tests/bench/chain_peers.hpp"
+#include "tests/bench/encounter_peers.hpp"
 #include "tests/bench/few_body_peers.hpp"
 #include "tests/bench/kepler_peers.hpp"
+#include "tests/bench/mechanism_peers.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/scheme_makers.hpp"
 #include "tests/bench/soliton_peers.hpp"
 #include "tests/bench/spring_peers.hpp"
+#include "tests/bench/vortex_peers.hpp"
 #include "tests/bench/wave_peers.hpp"
 #include "tests/laws/bodies.hpp"
 
@@ -180,7 +187,11 @@ int main(int argc, char** argv) {
                                        {"P7", chains},
                                        {"P8", henonHeiles},
                                        {"P9", springChain},
-                                       {"P10", outerPlanets}})
+                                       {"P10", [](PeerTable& t) { outerPlanets(t); }},
+                                       {"P10l", outerPlanetsLong},
+                                       {"P11", encounters},
+                                       {"P12", vortices},
+                                       {"P13", fourBar}})
         if (wanted.empty() || wanted.contains(problem)) run(table);
     if (csv && !table.writeCsv(csv)) {
         std::fprintf(stderr, "%s cannot be written\n", csv);

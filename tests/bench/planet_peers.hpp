@@ -2,7 +2,7 @@
 /// The outer solar system by hand: accelerations, recurrences of Taylor coefficients, and the splittings that
 /// are made for planets, of Kepler motions about the Sun and kicks by the other planets (Wisdom and Holman
 /// 1991; democratic heliocentric coordinates, Duncan, Levison and Lee 1998; kicks at the nodes of Gauss,
-/// Laskar and Robutel 2001).
+/// Laskar and Robutel 2001; Blanes et al. 2013).
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/quadrature/rule.hpp"
+#include "engine/tableau/splitting_table.hpp"
 #include "tests/bench/taylor.hpp"
 
 namespace extremal::bench {
@@ -53,9 +53,9 @@ public:
         return a;
     }
 
-    /// n steps of Kepler motions between kicks: at the middle of each step, or at as many nodes of Gauss.
+    /// n steps of Kepler motions between kicks, by a splitting that begins with a motion.
     std::array<double, 2 * d> byKeplerArcs(const std::array<double, 2 * d>& start, double end, double n,
-                                           int nodes) const {
+                                           const Splitting& splitting) const {
         double all = 0;
         std::array<double, 3> centre{}, drift{};
         for (std::size_t i = 0; i < bodies; ++i) {
@@ -72,15 +72,16 @@ public:
                 q[3 * i + k] = start[3 * i + k] - start[k];
                 v[3 * i + k] = start[d + 3 * i + k] - drift[k] / all;
             }
-        const Rule<double> rule = extremal::gauss<double>(nodes);
         const double h = end / n;
-        std::vector<double> arcs{rule.c.front() * h};
-        for (std::size_t s = 1; s < rule.c.size(); ++s) arcs.push_back((rule.c[s] - rule.c[s - 1]) * h);
+        std::vector<double> arcs, kicks;
+        for (const SplittingStage& stage : splitting.stages)
+            (stage.isKick ? kicks : arcs).push_back(stage.fraction * h);
+        arcs.pop_back();  // it is one with the first of the next step
         for (double step = 0; step < n; ++step) {
             for (std::size_t s = 0; s < arcs.size(); ++s) {
                 const bool isFirst = s == 0 && step > 0;  // with the last arc of the step before
                 arc(q, v, isFirst ? 2 * arcs[0] : arcs[s]);
-                const double kick = rule.b[s] * h;
+                const double kick = kicks[s];
                 jump(q, v, kick / 2);
                 for (std::size_t i = 1; i < bodies; ++i)
                     for (std::size_t j = 1; j < i; ++j) attract(q.data(), i, j, kick, v.data());

@@ -25,6 +25,11 @@ inline Make freeMotion(const std::string& knots) {
     return schemeOf({{"free-motion", {{"knots", knots}}, {}}, {"auto", {}, {}}, {}});
 }
 
+/// Kepler arcs between kicks likewise.
+inline Make keplerArcs(const std::string& knots) {
+    return schemeOf({{"kepler-arcs", {{"knots", knots}}, {}}, {"auto", {}, {}}, {}});
+}
+
 /// A baseline by its id; the setting of an adaptive one is its tolerance.
 inline Make baselineOf(const std::string& id, Value::Object keys = {}) {
     const BaselineEntry* entry = findBaseline(id);

@@ -2,6 +2,7 @@
 /// P6n of the table of peers: the nonlinear Schroedinger equation from 2 sech x, over one period.
 #pragma once
 
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -9,10 +10,12 @@
 #include "engine/core/text/text.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/scheme_makers.hpp"
+#include "tests/bench/soliton_by_hand.hpp"
 
 namespace extremal::bench {
 
-/// 2 sech x to pi/2 on 1024 modes; peers are the splittings with FFTW and sines in vector registers.
+/// 2 sech x to pi/2 on 1024 modes; peers are splittings and exponential integrators with FFTW and sines in
+/// vector registers, of the program and by hand (soliton_by_hand.hpp).
 inline void solitons(PeerTable& table) {
     constexpr double end = std::numbers::pi / 2;
     const ModelEntry* const model = findModel("schrodinger");
@@ -49,11 +52,24 @@ inline void solitons(PeerTable& table) {
                                 makeIntegrator(system, withEstimates(d, system, start), {0, end / steps}),
                                 static_cast<int>(steps));
                         }));
-    for (const char* id : {"strang", "blanes-moan-s6", "srkn-6b", "srkn-11b", "srkn-14a"})
+    for (const char* id : {"strang", "blanes-moan-s6", "srkn-6b", "srkn-11b", "srkn-14a", "if-rk4"})
         curves.push_back(measure(id, true, counts(10, 4000, 1.2), 0.1, [&](double steps) {
             return errorWith(findBaseline(id)->make(system, {.step = end / steps, .settings = {id, {}, {}}}),
                              static_cast<int>(steps));
         }));
+    const auto byHand = [&](const std::string& name, double most, const auto& run) {
+        curves.push_back(measure(name + " by hand", true, counts(10, most, 1.2), 0.1, [&](double steps) {
+            SolitonByHand psi(*system.hamiltonian(), start.x, 48);
+            const std::vector<double> x = run(psi, static_cast<int>(steps));
+            double error = 0;
+            system.error.evaluate(x.data(), exact.data(), &error);
+            return std::vector<double>{std::isfinite(error) ? error : HUGE_VAL};
+        }));
+    };
+    byHand("ETDRK4", 2e4, [&](auto& psi, int n) { return psi.byEtdRk4(end, n); });
+    byHand("SRKN 6b", 4000, [&](auto& psi, int n) { return psi.bySplitting(srkn6b(), end, n); });
+    byHand("SRKN 11b", 4000, [&](auto& psi, int n) { return psi.bySplitting(srkn11b(), end, n); });
+    byHand("SRKN 14a", 4000, [&](auto& psi, int n) { return psi.bySplitting(srkn14a(), end, n); });
     table.add("P6n two solitons", curves, 0);
 }
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// P5 of the table of peers: a wave function in a cosine well, N = 256 and 512, at t = 1.
+///
+/// Peers of which each row is: those that take all of the spectrum, as our schemes do, and those that an
+/// expert tells beforehand which energies the packet has ("cut", wave_by_hand.hpp).
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "tests/bench/peer_table.hpp"
+#include "tests/bench/wave_by_hand.hpp"
 #include "tests/bench/wave_costs.hpp"
 
 namespace extremal::bench {
@@ -31,7 +35,11 @@ inline void waves(PeerTable& table) {
         add("SRKN 14a by hand", true, bareSrkn14a);
         for (const char* id : {"srkn-14a", "srkn-11b", "strang", "chebyshev-propagation"})
             add(id, true, baselineMethod(id));
-        table.add("P5 wave, N=" + std::to_string(modes), curves, 0);
+        addWavesByHand(curves, p);
+        std::vector<Curve> whole = curves;
+        std::erase_if(whole, [](const Curve& c) { return c.name.starts_with("cut"); });
+        table.add("P5 wave, N=" + std::to_string(modes), whole, 0);
+        table.add("P5 cut spectrum, N=" + std::to_string(modes), curves, 0, "cut");
     }
 }
 
