@@ -16,6 +16,7 @@
 #include <complex>
 #include <memory>
 
+#include "engine/core/algebra/transform_planning.hpp"
 #include "engine/model/wave/basis/grid.hpp"
 
 namespace extremal {
@@ -24,8 +25,7 @@ using Complex = std::complex<double>;
 
 class Fourier {
 public:
-    /// A wise plan is one that wisdom knows, else an estimated one.
-    enum class Planning { wise, estimated, measured };
+    using Planning = TransformPlanning;
     explicit Fourier(const wave::Grid& grid, Planning planning = Planning::wise);
 
     int size() const { return grid_.size(); }

@@ -9,29 +9,43 @@
 #include <stdexcept>
 
 #include "engine/core/text/regular_file.hpp"
+#include "engine/model/field/real_fourier.hpp"
 #include "engine/model/wave/basis/fourier.hpp"
 
 namespace extremal {
 namespace {
 
 /// Microseconds of a transform there and back: the best of some tenths of a second.
-double microsecondsOf(const Fourier& fourier) {
+template <class ThereAndBack>
+double bestOf(ThereAndBack&& once) {
     using Time = std::chrono::steady_clock;
-    const std::vector<Complex> from(static_cast<std::size_t>(fourier.size()), Complex(1));
-    std::vector<Complex> to(from), back(from);
     double best = 1e300;
     const auto start = Time::now();
     do {
         const auto before = Time::now();
         constexpr int repeats = 8;
-        for (int i = 0; i < repeats; ++i) {
-            fourier.rawToNodes(from.data(), to.data());
-            fourier.rawToCoefficients(to.data(), back.data());
-        }
+        for (int i = 0; i < repeats; ++i) once();
         best =
             std::min(best, std::chrono::duration<double, std::micro>(Time::now() - before).count() / repeats);
     } while (Time::now() - start < std::chrono::milliseconds(200));
     return best;
+}
+double microsecondsOf(const Fourier& fourier) {
+    const std::vector<Complex> from(static_cast<std::size_t>(fourier.size()), Complex(1));
+    std::vector<Complex> to(from), back(from);
+    return bestOf([&] {
+        fourier.rawToNodes(from.data(), to.data());
+        fourier.rawToCoefficients(to.data(), back.data());
+    });
+}
+double microsecondsOf(const RealFourier& fourier) {
+    const std::vector<double> from(static_cast<std::size_t>(fourier.size()), 1.0);
+    std::vector<Complex> modes(static_cast<std::size_t>(fourier.modes()));
+    std::vector<double> back(from);
+    return bestOf([&] {
+        fourier.toModes(from.data(), modes.data());
+        fourier.toNodes(modes.data(), back.data());
+    });
 }
 
 }  // namespace
@@ -52,6 +66,8 @@ TransformGain measureTransform(const TransformSize& size) {
     TransformGain gain;
     gain.estimated = microsecondsOf(Fourier(grid, Fourier::Planning::estimated));
     gain.measured = microsecondsOf(Fourier(grid, Fourier::Planning::measured));
+    gain.realEstimated = microsecondsOf(RealFourier(size.nx, size.ny, TransformPlanning::estimated));
+    gain.realMeasured = microsecondsOf(RealFourier(size.nx, size.ny, TransformPlanning::measured));
     return gain;
 }
 
