@@ -12,6 +12,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/fourier_space.hpp"
 #include "engine/family/parts/conditions.hpp"
 #include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/nodes.hpp"
@@ -28,7 +29,7 @@
 namespace extremal::family {
 namespace {
 
-constexpr int leastModes = 4, mostModes = 16384, mostDegree = 12;
+constexpr int mostDegree = 12;
 
 SpaceEntry fourierField() {
     FieldInfo degree =
@@ -109,13 +110,6 @@ Properties describeSpectral(const Discretization& d) {
     return p;
 }
 
-bool isSpectral(const System& system) {
-    if (system.parts.find<PlaneField>()) return true;
-    const auto* const field = system.parts.find<ScalarField>();
-    return field && !field->problem->isBody && field->problem->elastic.isLinear() &&
-           !field->problem->hasMovingNodes;
-}
-
 /// Whether W is a polynomial, where `exact` asks for it.
 std::optional<Problem> refusalOfExact(const Settings& space, int degree) {
     const Value* const nodes = space.find("nodes");
@@ -147,21 +141,7 @@ std::optional<Problem> refusalOf(const Discretization& d, const PlaneFieldProble
 
 /// Why a field cannot have the modes; nothing where it can.
 std::optional<Problem> refusalOf(const Discretization& d, const FieldProblem& problem) {
-    if (!problem.mesh.isPeriodic())
-        return Problem{"/space",
-                       std::string("Fourier modes need a periodic domain, and the boundary of this "
-                                   "model is ") +
-                           (problem.mesh.boundary == Boundary::dirichlet ? "dirichlet" : "neumann"),
-                       "the boundary periodic, or multisymplectic-2"};
-    if (problem.coefficient)
-        return Problem{"/space",
-                       "Fourier modes need one wave speed, and this model has a medium a(x/epsilon)",
-                       "a homogeneous medium, \"a\": \"1\", or multisymplectic-2"};
-    if (problem.size() < leastModes || problem.size() > mostModes)
-        return Problem{"/space",
-                       "takes as many modes as the model has cells, " + std::to_string(problem.size()) +
-                           ", and not " + std::to_string(leastModes) + " to " + std::to_string(mostModes),
-                       "\"modes\" in the space"};
+    if (const auto refusal = modesProblem(problem)) return refusal;
     if (const auto refusal = refusalOfExact(d.space, problem.potential.degree())) return refusal;
     return refusalOfFewNodes(d.space, problem.size(), problem.potential.degree());
 }
@@ -195,27 +175,6 @@ ReferencePlan trusted(const System& system, const State&, double duration) {
     plan.firstStep = std::min(duration / fewestSteps, 2 / (speed * shortest));
     plan.mostSteps = mostUpdatesOfNodes / static_cast<double>(problem.size());
     return plan;
-}
-
-/// A periodic model as trigonometric polynomials; others stay as they are, to be refused.
-std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
-    if (model.type != "field" || model.text("boundary") != "periodic" ||
-        (model.find("a") && model.text("a") != "1"))
-        return {};
-    // Several components are on the nodes of the model, unless there are other modes.
-    if (!space.find("modes") && componentNames(model) != std::vector<std::string>{"u"}) return {};
-    Settings own = model;
-    for (auto& [key, value] : own.keys)
-        if (key == "cells" && space.find("modes")) value = static_cast<double>(space.integer("modes"));
-    own.keys.emplace_back(trigonometricKey, true);
-    return own;
-}
-
-/// On the line, where the modes are the scheme's own.
-std::vector<SmallerSpace> fewerModes(const Settings& space, const Settings& model) {
-    if (!modelOf(space, model)) return {};
-    const int whole = space.find("modes") ? space.integer("modes") : model.integer("cells");
-    return thinnedSpaces(space, "modes", whole, leastModes, 2);
 }
 
 ChoiceGrid choices(const System& system) {
@@ -286,9 +245,9 @@ Family spectral_field() {
     f.make = makeSpectral;
     f.parts.set(TrustedScheme{trusted});
     f.parts.set(NodesAlone{});
-    f.parts.set(SystemCondition{isSpectral});
+    f.parts.set(SystemCondition{isForModes});
     f.parts.set(SchemeCondition{mismatchOf});
-    f.parts.set(OwnMesh{modelOf});
+    f.parts.set(OwnMesh{trigonometricModel});
     f.parts.set(SmallerSpaces{"modes", fewerModes, textOfModes});
     f.parts.set(SlowestStep{[](const SchemeCase& scheme) {
         return 5e-3 *
