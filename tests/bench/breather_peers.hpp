@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/text/text.hpp"
+#include "engine/model/wave/basis/wisdom.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/sweep.hpp"
 #include "tests/bench/breather_by_hand.hpp"
@@ -32,24 +33,26 @@ inline void spectralBreather(std::vector<Curve>& curves, int modes) {
     start.x = system.start(initial, 0);
     std::vector<double> exact(start.x.size());
     system.exactFrom(initial, start)(end, exact);
+    const auto add = [&](const std::string& label, const Make& make) {
+        curves.push_back(measure("Fourier " + std::to_string(modes) + ", " + label, false,
+                                 counts(20, 600, 1.12), 0.05, [&](double steps) {
+                                     const auto integrator = make(system, start, end / steps);
+                                     State state = start;
+                                     for (int k = 0; k < static_cast<int>(steps); ++k)
+                                         if (advance(*integrator, state).outcome != Outcome::converged)
+                                             return failed;
+                                     double error = 0;
+                                     system.error.evaluate(state.x.data(), exact.data(), &error);
+                                     return std::vector<double>{error};
+                                 }));
+    };
     for (const int degree : {4, 5, 6, 8})
-        for (const double tolerance : {1e-4, 1e-6, 1e-9, 1e-11, 0.0}) {
-            const std::string label = "Fourier " + std::to_string(modes) + ", Gauss " +
-                                      std::to_string(2 * degree) + ", tolerance " + formatNumber(tolerance);
-            curves.push_back(measure(label, false, counts(20, 300, 1.12), 0.05, [&](double steps) {
-                const Discretization d{
-                    {"fourier-field", {{"degree", static_cast<double>(degree)}, {"nodes", "same"}}, {}},
-                    {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}},
-                    {"auto", {{"tolerance", tolerance}}, {}}};
-                const auto integrator = makeIntegrator(system, d, {0, end / steps});
-                State state = start;
-                for (int k = 0; k < static_cast<int>(steps); ++k)
-                    if (advance(*integrator, state).outcome != Outcome::converged) return failed;
-                double error = 0;
-                system.error.evaluate(state.x.data(), exact.data(), &error);
-                return std::vector<double>{error};
-            }));
-        }
+        for (const double tolerance : {1e-4, 1e-6, 1e-9, 1e-11, 0.0})
+            add("Gauss " + std::to_string(2 * degree) + ", tolerance " + formatNumber(tolerance),
+                schemeOf({{"fourier-field", {{"degree", static_cast<double>(degree)}, {"nodes", "same"}}, {}},
+                          {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}},
+                          {"auto", {{"tolerance", tolerance}}, {}}}));
+    for (const char* knots : {"srkn-6b", "srkn-11b", "srkn-14a"}) add(knots, freeMotion(knots));
 }
 
 /// Every scheme on meshes and steps that are refined together; the error is the L2 norm at the nodes.
@@ -79,7 +82,10 @@ inline void breather(PeerTable& table) {
          {80, 120, 160, 240, 320}},
     };
     std::vector<Curve> curves;
-    for (const int cells : {192, 224, 256, 320, 384}) spectralBreather(curves, cells);
+    for (const int cells : {192, 224, 256, 320, 384}) {
+        (void)measureTransform({cells});  // as with EXTREMAL_WISDOM: plans of both sides are measured before
+        spectralBreather(curves, cells);
+    }
     for (const Code& code : codes) {
         Curve curve{code.label, false, {{}}};
         for (const int cells : code.cells) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/text/text.hpp"
+#include "engine/model/wave/basis/wisdom.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/scheme_makers.hpp"
 #include "tests/bench/soliton_by_hand.hpp"
@@ -18,6 +19,7 @@ namespace extremal::bench {
 /// vector registers, of the program and by hand (soliton_by_hand.hpp).
 inline void solitons(PeerTable& table) {
     constexpr double end = std::numbers::pi / 2;
+    (void)measureTransform({1024});  // as with EXTREMAL_WISDOM: planning is left out on both sides
     const ModelEntry* const model = findModel("schrodinger");
     Settings settings{"schrodinger", {}, {}};
     for (const FieldInfo& f : model->item.parameters) settings.keys.emplace_back(f.key, f.firstValue());

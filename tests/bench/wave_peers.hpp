@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/model/wave/basis/wisdom.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/wave_by_hand.hpp"
 #include "tests/bench/wave_costs.hpp"
@@ -16,6 +17,7 @@ namespace extremal::bench {
 
 inline void waves(PeerTable& table) {
     for (const int modes : {256, 512}) {
+        (void)measureTransform({modes});  // as with EXTREMAL_WISDOM: planning is left out on both sides
         WaveProblem p{"P5", onCircle("50*(1 - cos(x))", 1, modes), {}, 1, {}, 3e-16};
         p.start = packet(p.system, 20, 5);
         p.exact = knownState(p.system, modes);

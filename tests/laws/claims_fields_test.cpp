@@ -110,8 +110,11 @@ private slots:
             const System& system = s.ownSystem ? *s.ownSystem : *on.system;
             const State& start = s.ownSystem ? s.ownInitial : on.initial;
             for (CatalogueScheme& c : everythingOn(system, start, 0.05))
-                // Spectral in space, where no mesh of this ladder is coarse: family.spectral_field.
-                if (c.scheme.discretization.space.type != "fourier-field") all_.emplace(c.name, std::move(c));
+                // Spectral in space, where no mesh of this ladder is coarse: family.spectral_field and
+                // family.free_motion.free_field.
+                if (const std::string& space = c.scheme.discretization.space.type;
+                    space != "fourier-field" && space != "free-motion")
+                    all_.emplace(c.name, std::move(c));
         }
         QVERIFY2(all_.size() >= 40, qPrintable(QString::number(all_.size())));
     }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Known motions between kicks: free ones between kicks of the potential, the explicit schemes of coordinates
-/// with constant masses, of rigid bodies and of wave functions (Leok 2004, sec. 2, 3 and 8 for the spaces;
-/// Blanes and Moan 2002 for the knots), and Kepler arcs between kicks of what planets do to each other
-/// (Wisdom and Holman 1991; Laskar and Robutel 2001 and Blanes et al. 2013 for the knots).
+/// with constant masses, of rigid bodies, of wave functions and of fields in Fourier modes (Leok 2004, sec.
+/// 2, 3 and 8 for the spaces; Blanes and Moan 2002 for the knots), and Kepler arcs between kicks of what
+/// planets do to each other (Wisdom and Holman 1991; Laskar and Robutel 2001 and Blanes et al. 2013 for the
+/// knots).
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -14,10 +15,13 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/fourier_space.hpp"
 #include "engine/family/free_motion/free_body_motion.hpp"
 #include "engine/family/free_motion/kepler_motion.hpp"
 #include "engine/family/parts/conditions.hpp"
+#include "engine/family/modal_splitting.hpp"
 #include "engine/family/parts/described_on_system.hpp"
+#include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/step_tableau.hpp"
 #include "engine/family/parts/variant.hpp"
 #include "engine/integrator/oscillator_step.hpp"
@@ -83,11 +87,19 @@ SpaceEntry spaceOf(const char* id, const char* title, const char* description, c
     return e;
 }
 SpaceEntry freeMotions() {
-    return spaceOf("free-motion", "free motion",
-                   "Free motions between knots of the step, at which the potential kicks: explicit.",
-                   "Where the knots are on the step and what the kicks weigh: strang (order 2), suzuki-4, "
-                   "blanes-moan-s6, srkn-6b (4), blanes-moan-s10, srkn-11b, srkn-14a (6).",
-                   needed);
+    SpaceEntry e =
+        spaceOf("free-motion", "free motion",
+                "Free motions between knots of the step, at which the potential kicks: explicit.",
+                "Where the knots are on the step and what the kicks weigh: strang (order 2), suzuki-4, "
+                "blanes-moan-s6, srkn-6b (4), blanes-moan-s10, srkn-11b, srkn-14a (6).",
+                needed);
+    FieldInfo modes =
+        integerField("modes", "N", leastModes, mostModes, nullptr,
+                     "Of fields over an interval: the number of Fourier modes; default: the cells "
+                     "of the model.");
+    modes.isOptional = true;
+    e.item.parameters.push_back(modes);
+    return e;
 }
 SpaceEntry keplerArcs() {
     return spaceOf("kepler-arcs", "Kepler arcs",
@@ -117,11 +129,15 @@ Properties describeFreeMotion(const Discretization& d) {
     return p;
 }
 
-/// Bodies and wave functions have no limit on the harmonic oscillator.
+bool isField(const System& system) {
+    return system.parts.find<ScalarField>() || system.parts.find<PlaneField>();
+}
+
+/// Bodies, wave functions and fields have no limit on the harmonic oscillator.
 std::optional<Properties> describeOn(const Discretization& d, const System& system) {
     Properties p = describeFreeMotion(d);
-    if (system.parts.find<Wave>()) {
-        p.claims.conserves = {"norm"};
+    if (system.parts.find<Wave>() || isField(system)) {
+        if (!isField(system)) p.claims.conserves = {"norm"};
         p.curveOrder = p.claims.order;  // shorter steps
     } else if (!system.parts.find<Body>()) {
         return p;
@@ -140,14 +156,23 @@ std::string unknownBecause(const System& system) {
         return system.body().isFree() ? "the free motion of a body without a potential is its motion, and "
                                         "nothing is left to discretize"
                                       : std::string();
+    if (isField(system) && !isForModes(system))
+        return "free waves are known on meshes at rest, with a linear force between the nodes";
+    if (const auto* const field = system.parts.find<ScalarField>()) {
+        const auto problem = modesProblem(*field->problem);
+        return problem ? problem->message : std::string();
+    }
+    if (system.parts.find<PlaneField>()) return {};
     return flowOf(system).isSeparable
                ? std::string()
                : "free motions are straight lines only where masses are constant and the potential depends "
                  "on the place alone";
 }
 
-/// Why Kepler arcs cannot be the curves of a step; empty if they can.
+/// Why a space cannot have the curves of a step; empty if it can.
 std::string mismatchOf(const Discretization& d, const System& system) {
+    if (d.space.find("modes") && !system.parts.find<ScalarField>())
+        return "modes are for fields over an interval; others have as many as their model says";
     if (!isOfArcs(d.space) || system.parts.find<HeldBodies>()) return {};
     return "Kepler arcs are for " + std::string(neededOfArcs);
 }
@@ -155,9 +180,11 @@ std::string mismatchOf(const Discretization& d, const System& system) {
 std::unique_ptr<Integrator> makeOn(const System& system, const Discretization& d, double step) {
     const Splitting splitting = splittingOf(d.space).make();
     if (const std::string problem = mismatchOf(d, system); !problem.empty())
-        throw InvalidScene("/space/type", problem, "free-motion");
+        throw InvalidScene(d.space.find("modes") ? "/space/modes" : "/space/type", problem,
+                           d.space.find("modes") ? "leave it out" : "free-motion");
     if (isOfArcs(d.space)) return makeKeplerMotion(system, system.part<HeldBodies>(), splitting, step);
     if (system.parts.find<Wave>()) return makeWaveSplitting(system, step, splitting);
+    if (isField(system)) return makeModalSplitting(spectralDomainOf(system), splitting, step);
     if (system.parts.find<Body>()) return makeFreeBodyMotion(system, splitting, step);
     return makePartitioned(flowOf(system), step, partitionedStages(splitting, true));
 }
@@ -206,7 +233,7 @@ Family free_motion() {
         needed};
     f.source = "Leok 2004, sec. 2, 3 and 8";
     f.spaces = {freeMotions(), keplerArcs()};
-    f.takes = flowProblems().with<Body, Wave, Interaction, Rotation>();
+    f.takes = flowProblems().with<Body, Wave, Interaction, Rotation, ScalarField, PlaneField>();
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // its nodes are the knots
     };
@@ -226,6 +253,10 @@ Family free_motion() {
                                "choose the space free-motion for a tableau of the same knots");
         return tableauOf(splittingOf(d.space).make().stages, 1e-15);  // printed to 15 digits
     }});
+    f.parts.set(OwnMesh{[](const Settings& space, const Settings& model) {
+        return isOfArcs(space) ? std::nullopt : trigonometricModel(space, model);
+    }});
+    f.parts.set(SmallerSpaces{"modes", fewerModes, textOfModes});
     f.parts.set(Variant{});
     return f;
 }
