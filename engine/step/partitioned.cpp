@@ -84,21 +84,7 @@ public:
         bool isForceFresh = forceAt_ == q;  // else the cost would depend on where blocks begin
         for (std::size_t i = 0; i + 1 < count; ++i) {
             report.cost.evaluations = 0;
-            for (const PartitionedStage& stage : stages_) {
-                const double s = stage.fraction * this->h();
-                if (stage.isKick()) {
-                    if (!isForceFresh) {
-                        this->mechanics_.force(this->mechanics_.model.get(), state.t, q.data(),
-                                               force_.data());
-                        ++report.cost.evaluations;
-                        isForceFresh = true;
-                    }
-                    p += s * force_;
-                } else {
-                    q += (s * inverseMass_).cwiseProduct(p);
-                    isForceFresh = false;
-                }
-            }
+            kickAndDrift(state.t, q, p, isForceFresh, report);
             state.t = clock.at(++state.node);
             std::copy_n(q.data(), d, state.x.data());
             std::copy_n(p.data(), d, state.x.data() + d);
@@ -177,7 +163,33 @@ private:
         return true;
     }
     void step(double t) override {
-        takeStages(t, [](auto&&...) { return true; });
+        if (!this->mechanics_.isSeparable || this->mechanics_.isTimeDependent) {
+            takeStages(t, [](auto&&...) { return true; });
+            return;
+        }
+        bool isForceFresh = forceAt_ == this->q1_;
+        kickAndDrift(t, this->q1_, this->p1_, isForceFresh, this->report_);
+        if (isForceFresh) forceAt_ = this->q1_;
+    }
+    /// The stages of a separable system that does not know the time. `isForceFresh`: whether force_ is that of
+    /// q, before and after.
+    void kickAndDrift(double t, Vector& q, Vector& p, bool& isForceFresh, StepReport& report) {
+        const auto& m = this->mechanics_;
+        for (const PartitionedStage& stage : stages_) {
+            const double s = stage.fraction * this->h();
+            if (!stage.isKick()) {
+                q += (s * inverseMass_).cwiseProduct(p);
+                isForceFresh = false;
+                continue;
+            }
+            // The last kick of a step and the first of the next one use the same force.
+            if (!isForceFresh) {
+                m.force(m.model.get(), t, q.data(), force_.data());
+                ++report.cost.evaluations;
+                isForceFresh = true;
+            }
+            p += s * force_;
+        }
     }
     /// `besides(isKick, isImplicit, t, s)` before each explicit stage, and after each implicit one: where the
     /// state is that of its derivatives. Its false ends the step.
