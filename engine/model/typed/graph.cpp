@@ -44,13 +44,28 @@ std::optional<Function> functionNamed(std::string_view wanted) {
     return static_cast<Function>(found - names.begin());
 }
 
+Graph::Rank Graph::rankOf(const Node& node) const {
+    std::uint64_t shape = static_cast<std::uint64_t>(node.kind) + 1;
+    if (node.kind == Kind::call) shape = mix(shape, static_cast<std::uint64_t>(node.function));
+    if (node.table) shape = mix(mix(shape, node.table->hash()), static_cast<std::uint64_t>(node.order));
+    std::uint64_t h = mix(mix(shape, bits(node.number)), static_cast<std::uint64_t>(node.symbol + 2));
+    Rank rank;
+    if (node.kind == Kind::symbol) rank.firstSymbol = rank.lastSymbol = node.symbol;
+    for (const Operand& o : node.operands) {
+        const Rank& own = at(o.node).rank;
+        h = mix(mix(h, own.hash), bits(o.factor));
+        shape = mix(mix(shape, own.shape), node.kind == Kind::product ? bits(o.factor) : 0);
+        rank.firstSymbol = std::min(rank.firstSymbol, own.firstSymbol);
+        rank.lastSymbol = std::max(rank.lastSymbol, own.lastSymbol);
+    }
+    rank.shape = shape;
+    rank.hash = h;
+    return rank;
+}
+
 int Graph::intern(Node node) {
-    std::uint64_t h = mix(static_cast<std::uint64_t>(node.kind) + 1, bits(node.number));
-    h = mix(h, static_cast<std::uint64_t>(node.symbol + 2));
-    if (node.kind == Kind::call) h = mix(h, static_cast<std::uint64_t>(node.function));
-    if (node.table) h = mix(mix(h, node.table->hash()), static_cast<std::uint64_t>(node.order));
-    for (const Operand& o : node.operands) h = mix(mix(h, at(o.node).hash), bits(o.factor));
-    node.hash = h;
+    node.rank = rankOf(node);
+    const std::uint64_t h = node.rank.hash;
     const auto [from, to] = known_.equal_range(h);
     for (auto it = from; it != to; ++it)
         if (isSame(at(it->second), node)) return it->second;
@@ -73,7 +88,7 @@ int Graph::symbol(int index) {
 }
 
 std::vector<Graph::Operand> Graph::ordered(std::vector<Operand> operands) const {
-    const auto key = [&](const Operand& o) { return std::tuple(at(o.node).hash, o.node, o.factor); };
+    const auto key = [&](const Operand& o) { return std::tuple(at(o.node).rank, o.node, o.factor); };
     std::sort(operands.begin(), operands.end(),
               [&](const Operand& a, const Operand& b) { return key(a) < key(b); });
     return operands;

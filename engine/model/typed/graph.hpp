@@ -7,14 +7,17 @@
 ///
 /// Of a sum inside a sum or to an integer power the number is positive, or without one the first factor:
 /// c (a - b) and -c (b - a) are the same. Every node is made through the functions below, which bring it into
-/// this form, combine like terms and like powers, and fold numbers. Operands are ordered by a hash of their
-/// structure alone, before numbers are folded, so that equal formulas give equal graphs, to the last bit,
-/// whatever the order they were made in: that of GiNaC depends on addresses. A symbol is a number chosen by
-/// the caller.
+/// this form, combine like terms and like powers, and fold numbers. Operands are ordered by their structure
+/// alone, before numbers are folded, so that equal formulas give equal graphs, to the last bit, whatever the
+/// order they were made in: that of GiNaC depends on addresses. Of one shape they are ordered by their
+/// symbols, so that the springs of a chain, or the terms of a sum over an index, have the same order and
+/// signs everywhere in it (tape/tape_groups.hpp). A symbol is a number chosen by the caller.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -73,13 +76,20 @@ public:
         double factor = 1;  ///< coefficient in a sum, exponent in a product
         bool operator==(const Operand&) const = default;
     };
+    /// Where a node stands among the operands of another. The shape says nothing of symbols and coefficients.
+    struct Rank {
+        std::uint64_t shape = 0;
+        int firstSymbol = std::numeric_limits<int>::max(), lastSymbol = -1;
+        std::uint64_t hash = 0;
+        auto operator<=>(const Rank&) const = default;
+    };
     struct Node {
         Kind kind = Kind::number;
         double number = 0;  ///< number; the constant of a sum
         int symbol = -1;
         Function function = Function::sin;
         std::vector<Operand> operands;
-        std::uint64_t hash = 0;
+        Rank rank;
         std::shared_ptr<const Interpolant> table;  ///< of the function `table`
         int order = 0;                             ///< of its derivative
     };
@@ -108,6 +118,7 @@ public:
 
 private:
     int intern(Node node);
+    Rank rankOf(const Node& node) const;
     /// Of a sum: whether its number, or without one its first factor, is negative.
     static bool isNegative(const Node& node);
     int negative(int node);

@@ -2,6 +2,9 @@
 /// Formulas as a graph: what is equal is one node, however it was written.
 #include <QTest>
 
+#include <cstddef>
+#include <vector>
+
 #include "engine/model/typed/graph.hpp"
 #include "tests/tools/test.hpp"
 
@@ -37,6 +40,27 @@ private slots:
         const int one = g_.sum(1, {{a_, -2}}), other = g_.sum(-1, {{a_, 2}});
         QCOMPARE(g_.scaled(one, 5), g_.scaled(other, -5));
         QCOMPARE(g_.product({{b_, 1}, {one, 1}}), g_.scaled(g_.product({{b_, 1}, {other, 1}}), -1));
+    }
+    /// In the cube of each spring of a chain the place with the lower number is the positive one, and in a
+    /// force the spring before comes before the one after.
+    void alongAChainAllIsAlike() {
+        std::vector<int> cubes;
+        for (int i = 0; i < 100; ++i) {
+            const int spring = g_.sum(0, {{g_.symbol(i + 1), 1}, {g_.symbol(i), -1}});
+            const int cube = g_.product({{spring, 3}});
+            const Graph::Node& scaled = g_.at(cube);
+            QCOMPARE(scaled.operands.size(), std::size_t{1});
+            QCOMPARE(scaled.operands[0].factor, -1.0);
+            cubes.push_back(scaled.operands[0].node);
+            const Graph::Node& inner = g_.at(g_.at(cubes.back()).operands[0].node);
+            QCOMPARE(inner.operands[0], (Graph::Operand{g_.symbol(i), 1}));
+            QCOMPARE(inner.operands[1], (Graph::Operand{g_.symbol(i + 1), -1}));
+        }
+        for (std::size_t i = 1; i < 100; ++i) {
+            const Graph::Node& force = g_.at(g_.sum(0, {{cubes[i], 1}, {cubes[i - 1], -1}}));
+            QCOMPARE(force.operands[0].node, cubes[i - 1]);
+            QCOMPARE(force.operands[1].node, cubes[i]);
+        }
     }
 
 private:
