@@ -85,32 +85,38 @@ std::uint32_t Code::sum(const Graph::Node& node) {
     return make(Op::multiply, constant(scale), inner);
 }
 
-/// constant + sum of (factor / scale) term.
+/// constant + sum of (factor / scale) term: one after the other, what is taken away last. Of many terms those
+/// of one half are added to those of the other, again and again: these additions do not wait for each other,
+/// and the error grows with the logarithm of their number.
 std::uint32_t Code::plainSum(double start, const std::vector<Graph::Operand>& terms, double scale) {
-    std::vector<std::uint32_t> plus, minus;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> scaled;
+    constexpr std::size_t few = 16;
+    std::vector<Term> plus, minus, scaled;
     for (const auto& [node, factor] : terms) {
         const std::uint32_t v = value(node);
         if (factor == scale)
-            plus.push_back(v);
+            plus.push_back({v, false});
         else if (factor == -scale)
-            minus.push_back(v);
+            minus.push_back({v, true});
         else
-            scaled.emplace_back(constant(factor / scale), v);
+            scaled.push_back({make(Op::multiply, constant(factor / scale), v), false});
     }
-    bool isEmpty = start == 0;
-    std::uint32_t sum = isEmpty ? 0 : constant(start);
-    const auto add = [&](std::uint32_t v) {
-        sum = isEmpty ? v : make(Op::add, sum, v);
-        isEmpty = false;
-    };
-    for (const std::uint32_t v : plus) add(v);
-    for (const auto& [c, v] : scaled) add(make(Op::multiply, c, v));
-    for (const std::uint32_t v : minus) {
-        sum = isEmpty ? make(Op::negate, v) : make(Op::subtract, sum, v);
-        isEmpty = false;
+    std::vector<Term> all;
+    if (start != 0) all.push_back({constant(start), false});
+    for (const auto& part : {plus, scaled, minus}) all.insert(all.end(), part.begin(), part.end());
+    while (all.size() > few) {
+        const std::size_t half = (all.size() + 1) / 2;
+        for (std::size_t k = half; k < all.size(); ++k) all[k - half] = added(all[k - half], all[k]);
+        all.resize(half);
     }
-    return sum;
+    Term sum = all.front();
+    for (std::size_t k = 1; k < all.size(); ++k) sum = added(sum, all[k]);
+    return sum.isNegative ? make(Op::negate, sum.value) : sum.value;
+}
+
+Code::Term Code::added(Term a, Term b) {
+    if (a.isNegative == b.isNegative) return {make(Op::add, a.value, b.value), a.isNegative};
+    if (a.isNegative) std::swap(a, b);
+    return {make(Op::subtract, a.value, b.value), false};
 }
 
 std::uint32_t Code::product(const Graph::Node& node) {

@@ -29,10 +29,15 @@ public:
     const std::vector<LookUp>& tables() const { return tables_; }
 
 private:
+    struct Term {
+        std::uint32_t value;
+        bool isNegative;
+    };
     std::uint32_t constant(double number);
     std::uint32_t make(Op op, std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0);
     std::uint32_t sum(const Graph::Node& node);
     std::uint32_t plainSum(double constant, const std::vector<Graph::Operand>& terms, double scale);
+    Term added(Term a, Term b);
     std::uint32_t product(const Graph::Node& node);
     std::uint32_t power(std::uint32_t base, double exponent);
     std::uint32_t whole(std::uint32_t base, long exponent);
