@@ -46,14 +46,14 @@ struct Model {
 
 const Model& self(const void* p) { return *static_cast<const Model*>(p); }
 
-/// One evaluation of a tape at (t, q, v).
+/// One evaluation of a tape at (t, q, v); v may be null for what does not depend on it.
 class Registers : public TapeRegisters {
 public:
     Registers(const Model& m, const Tape& tape, double t, const double* q, const double* v)
         : TapeRegisters(tape, [&](double* r) {
               const auto d = static_cast<std::size_t>(m.d);
               std::memcpy(r, q, d * sizeof(double));
-              std::memcpy(r + d, v, d * sizeof(double));
+              if (v) std::memcpy(r + d, v, d * sizeof(double));
               r[2 * d] = t;
           }) {}
 };
@@ -64,7 +64,7 @@ void jet(const void* p, const double& t, const double* q, const double* v, doubl
     const Registers r(m, m.jet, t, q, v);
     const auto n = static_cast<std::size_t>(2 * m.d);
     *value = r[0];
-    for (std::size_t i = 0; i < n; ++i) gradient[i] = r[1 + i];
+    r.copy(1, n, gradient);
     if (m.hessian.empty()) {
         std::fill_n(hessian, n * n, 0.0);
         for (const Model::Constant& c : m.constants) hessian[c.at] = hessian[c.mirrored] = c.value;
@@ -77,16 +77,16 @@ void jet(const void* p, const double& t, const double* q, const double* v, doubl
 void gradient(const void* p, const double& t, const double* q, const double* v, double* g) {
     const Model& m = self(p);
     const Registers r(m, m.gradient, t, q, v);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(2 * m.d); ++i) g[i] = r[i];
+    r.copy(0, static_cast<std::size_t>(2 * m.d), g);
 }
 
 /// L_q; where L is separable it does not depend on v.
 void force(const Model& m, double t, const double* q, const double* v, double* f) {
     const Registers r(m, m.force, t, q, v);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(m.d); ++i) f[i] = r[i];
+    r.copy(0, static_cast<std::size_t>(m.d), f);
 }
 void separableForce(const void* p, const double& t, const double* q, double* f) {
-    force(self(p), t, q, q, f);
+    force(self(p), t, q, nullptr, f);
 }
 
 /// Eight nodes at a time, in the instruction set of this machine: outputs of a tape at q, v and t, output k
@@ -110,7 +110,7 @@ private:
             [&](Lanes* r) {
                 for (int k = 0; k < m.d; ++k) {
                     r[k] = Lanes::load(q + k * nodes + i);
-                    r[m.d + k] = Lanes::load(v + k * nodes + i);
+                    if (v) r[m.d + k] = Lanes::load(v + k * nodes + i);
                 }
                 r[2 * m.d] = Lanes::load(t + i);
             },
@@ -125,7 +125,7 @@ private:
     }
     /// Separable: L_q does not depend on v.
     static void forceLanes(const void* p, const double* t, int nodes, const double* q, double* f) {
-        gradientsOf(self(p), self(p).force, t, nodes, q, q, f);
+        gradientsOf(self(p), self(p).force, t, nodes, q, nullptr, f);
     }
     static void gradientLanes(const void* p, const double* t, int nodes, const double* q, const double* v,
                               double* g) {
@@ -423,9 +423,10 @@ void jetEntries(const void* p, double t, const double* q, const double* v, doubl
     const auto& entries = *static_cast<const EntriesModel*>(p);
     const Model& m = self(entries.mechanics.get());
     const Registers r(m, m.jet, t, q, v);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(2 * m.d); ++i) gradient[i] = r[1 + i];
+    const auto n = static_cast<std::size_t>(2 * m.d);
+    r.copy(1, n, gradient);
     hessian = std::copy(entries.constants.begin(), entries.constants.end(), hessian);
-    for (const Model::Place& place : m.places) *hessian++ = r[place.output];
+    r.copy(1 + n, m.places.size(), hessian);  // their outputs follow those of the gradient
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ void runEight(const Tape& tape, const Fill& fill, const Write& write) {
         r = many.data();
     }
     fill(r);
-    detail::run(tape, r);
+    detail::runInGroups(tape, r);
     for (std::size_t k = 0; k < tape.outputs(); ++k) write(k, tape.output(k, r));
 }
 

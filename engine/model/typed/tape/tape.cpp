@@ -2,176 +2,83 @@
 #include "engine/model/typed/tape/tape.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
-#include <map>
-#include <tuple>
+#include <span>
 #include <utility>
 
+#include "engine/model/typed/tape/free_registers.hpp"
 #include "engine/model/typed/tape/tape_code.hpp"
 #include "engine/model/typed/tape/tape_groups.hpp"
+#include "engine/model/typed/tape/tape_line.hpp"
+#include "engine/model/typed/tape/tape_order.hpp"
 #include "engine/model/typed/tape/tape_run.hpp"
 
 namespace extremal::typed {
 namespace {
 
-using Register = std::uint32_t;
-constexpr Register none = std::numeric_limits<Register>::max();
+constexpr auto never = std::numeric_limits<std::size_t>::max();
 
-/// How many operands of an instruction are values; a comes first, then b, then c.
-int operandCount(Op op) {
-    switch (op) {
-        case Op::negate:
-        case Op::reciprocal:
-        case Op::sqrt:
-        case Op::sinCos:
-        case Op::call:
-        case Op::lookUp:
-            return 1;
-        case Op::add:
-        case Op::subtract:
-        case Op::multiply:
-        case Op::call2:
-            return 2;
-        case Op::multiplyAdd:
-        case Op::multiplySubtract:
-        case Op::subtractProduct:
-        case Op::choose:
-            return 3;
-    }
-    return 0;
-}
-
-template <class F>
-void forOperands(Instruction& code, F&& f) {
-    const int n = operandCount(code.op);
-    if (n > 0) f(code.a);
-    if (n > 1) f(code.b);
-    if (n > 2) f(code.c);
-}
-
-/// The instructions that some outputs need, in order, each with the value it makes.
-struct Line {
-    struct Step {
-        Instruction code;
-        Register makes, makesToo = none;  ///< makesToo: cos of sinCos
-    };
-    std::vector<Step> steps;
-    std::vector<Register> outputs;
-    std::vector<int> uses;  ///< of each value
-
-    Line(const std::vector<Code::Item>& items, std::vector<Register> wanted) : outputs(std::move(wanted)) {
-        uses.assign(items.size(), 0);
-        for (const Register v : outputs) ++uses[v];
-        for (std::size_t i = items.size(); i-- > 0;) {
-            if (uses[i] == 0 || items[i].kind != Code::Kind::instruction) continue;
-            Step step{items[i].code, static_cast<Register>(i), none};
-            forOperands(step.code, [&](Register& v) { ++uses[v]; });
-            steps.push_back(step);
-        }
-        std::reverse(steps.begin(), steps.end());
-        joinSinesAndCosines();
-        joinProductsAndSums();
+/// Gives registers to what the steps of a line make, one block after the other.
+class Placing {
+public:
+    Placing(Line& line, std::vector<std::uint32_t> place, std::uint32_t firstFree, const Line::Blocks& ends)
+        : line_(line), place_(std::move(place)), firstFree_(firstFree), free_(firstFree) {
+        last_.assign(place_.size(), never);
+        std::size_t step = 0;
+        for (std::size_t b = 0; b < ends.size(); ++b)
+            for (; step < ends[b]; ++step)
+                forOperands(line_.steps[step].code, [&](std::uint32_t v) { last_[v] = b; });
+        for (const std::uint32_t v : line_.outputs) last_[v] = never;
     }
 
-    /// Sorts the steps by how many have to be there before them, and then by operations; false, and nothing
-    /// changed, where fewer than half of them are in long groups.
-    bool sortIntoGroups() {
-        constexpr std::size_t few = 128, fewInGroup = 8;
-        if (steps.size() < few) return false;
-        std::vector<int> depth(uses.size(), 0);
-        std::map<std::tuple<int, Op, Register>, std::size_t> groups;
-        const auto functionOf = [](const Instruction& code) {
-            const bool hasFunction = code.op == Op::call || code.op == Op::call2 || code.op == Op::lookUp;
-            return hasFunction ? code.c : Register{0};
+    /// Block number b, whose steps are sorted so that they read side by side what earlier blocks made.
+    void place(std::size_t b, std::span<Line::Step> block) {
+        std::vector<std::uint32_t> ended;
+        for (Line::Step& step : block)
+            forOperands(step.code, [&](std::uint32_t& v) {
+                if (last_[v] == b && place_[v] >= firstFree_) ended.push_back(place_[v]);
+                if (last_[v] == b) last_[v] = never;
+                v = place_[v];
+            });
+        sortByOperands(block);
+        // A single instruction may write where it read; a loop may not.
+        const auto release = [&] {
+            for (const std::uint32_t r : ended) free_.release(r);
         };
-        for (Step& step : steps) {
-            int own = 0;
-            forOperands(step.code, [&](Register& v) { own = std::max(own, depth[v] + 1); });
-            depth[step.makes] = own;
-            if (step.makesToo != none) depth[step.makesToo] = own;
-            ++groups[{own, step.code.op, functionOf(step.code)}];
+        if (block.size() == 1) release();
+        const auto count = static_cast<std::uint32_t>(block.size());
+        std::uint32_t to = free_.take(count);
+        for (Line::Step& step : block) step.code.to = place_[step.makes] = to++;
+        if (block.front().makesToo != Line::none) {
+            to = free_.take(count);
+            for (Line::Step& step : block) step.code.c = place_[step.makesToo] = to++;
         }
-        std::size_t inLongGroups = 0;
-        for (const auto& [key, count] : groups)
-            if (count >= fewInGroup) inLongGroups += count;
-        if (2 * inLongGroups < steps.size()) return false;
-        std::stable_sort(steps.begin(), steps.end(), [&](const Step& a, const Step& b) {
-            return std::tuple(depth[a.makes], a.code.op, functionOf(a.code)) <
-                   std::tuple(depth[b.makes], b.code.op, functionOf(b.code));
-        });
-        return true;
+        if (block.size() > 1) release();
     }
+    std::uint32_t of(std::uint32_t value) const { return place_[value]; }
+    std::uint32_t end() const { return free_.end(); }
 
 private:
-    void drop(const std::vector<char>& isDropped) {
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < steps.size(); ++i)
-            if (!isDropped[i]) steps[kept++] = steps[i];
-        steps.resize(kept);
-    }
-    void joinSinesAndCosines() {
-        constexpr auto sine = static_cast<Register>(Function::sin),
-                       cosine = static_cast<Register>(Function::cos);
-        std::map<Register, std::pair<std::size_t, std::size_t>> pairs;  // argument -> places of sin, cos
-        constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
-        for (std::size_t i = 0; i < steps.size(); ++i) {
-            const Instruction& c = steps[i].code;
-            if (c.op != Op::call || (c.c != sine && c.c != cosine)) continue;
-            auto& both = pairs.try_emplace(c.a, nowhere, nowhere).first->second;
-            (c.c == sine ? both.first : both.second) = i;
-        }
-        std::vector<char> isDropped(steps.size(), 0);
-        for (const auto& [argument, both] : pairs) {
-            const auto [s, c] = both;
-            if (s == nowhere || c == nowhere) continue;
-            Step& first = steps[std::min(s, c)];
-            const Register sinValue = steps[s].makes, cosValue = steps[c].makes;
-            first = {{Op::sinCos, 0, argument, 0, 0}, sinValue, cosValue};
-            isDropped[std::max(s, c)] = 1;
-            --uses[argument];
-        }
-        drop(isDropped);
-    }
-    /// A product that only one sum uses becomes part of it.
-    void joinProductsAndSums() {
-        std::map<Register, std::size_t> products;
-        std::vector<char> isDropped(steps.size(), 0);
-        for (std::size_t i = 0; i < steps.size(); ++i) {
-            Instruction& code = steps[i].code;
-            if (code.op == Op::multiply) products[steps[i].makes] = i;
-            if (code.op != Op::add && code.op != Op::subtract) continue;
-            const auto join = [&](Register product, Register other, Op op) {
-                const auto found = products.find(product);
-                if (found == products.end() || uses[product] != 1) return false;
-                const Instruction& p = steps[found->second].code;
-                code = {op, 0, p.a, p.b, other};
-                isDropped[found->second] = 1;
-                return true;
-            };
-            const Register a = code.a, b = code.b;
-            if (code.op == Op::add) {
-                if (!join(b, a, Op::multiplyAdd)) join(a, b, Op::multiplyAdd);
-            } else if (!join(b, a, Op::subtractProduct)) {
-                join(a, b, Op::multiplySubtract);
-            }
-        }
-        drop(isDropped);
-    }
+    Line& line_;
+    std::vector<std::uint32_t> place_;  ///< of each value
+    std::uint32_t firstFree_;
+    FreeRegisters free_;
+    std::vector<std::size_t> last_;  ///< the last block that reads each value; never: outputs, and none
 };
 
 }  // namespace
 
 Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     Code code(graph);
-    std::vector<Register> wanted;
+    std::vector<std::uint32_t> wanted;
     for (const int root : roots) wanted.push_back(code.value(root));
     Line line(code.items(), std::move(wanted));
-    const bool isGrouped = line.sortIntoGroups();
 
     Tape tape;
     tape.inputs_ = static_cast<std::size_t>(inputs);
     tape.tables_ = code.tables();
-    std::vector<std::uint32_t> place(code.items().size(), none);
+    std::vector<std::uint32_t> place(code.items().size(), Line::none);
     for (std::size_t i = 0; i < code.items().size(); ++i) {
         const Code::Item& item = code.items()[i];
         if (line.uses[i] == 0) continue;
@@ -181,51 +88,54 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
             tape.constants_.push_back(item.number);
         }
     }
-    // The last step that reads each value; outputs are read at the end.
-    std::vector<std::size_t> last(place.size(), 0);
-    for (std::size_t s = 0; s < line.steps.size(); ++s)
-        forOperands(line.steps[s].code, [&](Register& v) { last[v] = s; });
-    for (const Register v : line.outputs) last[v] = line.steps.size();
+    Line::Blocks ends = line.sortIntoBlocks();
+    const bool isGrouped = !ends.empty();
+    if (!isGrouped)
+        for (std::size_t s = 0; s < line.steps.size(); ++s) ends.push_back(s + 1);
     const auto firstFree = static_cast<std::uint32_t>(tape.inputs_ + tape.constants_.size());
-    std::uint32_t end = firstFree;
-    std::vector<std::uint32_t> free;
-    const auto take = [&] {
-        if (free.empty()) return end++;
-        const std::uint32_t r = free.back();
-        free.pop_back();
-        return r;
-    };
-    for (std::size_t s = 0; s < line.steps.size(); ++s) {
-        auto& [instruction, makes, makesToo] = line.steps[s];
-        std::vector<Register> read;
-        forOperands(instruction, [&](Register& v) {
-            read.push_back(v);
-            v = place[v];
-        });
-        std::sort(read.begin(), read.end());
-        read.erase(std::unique(read.begin(), read.end()), read.end());
-        for (const Register v : read)
-            if (last[v] == s && place[v] >= firstFree && !isGrouped) free.push_back(place[v]);
-        instruction.to = place[makes] = take();
-        if (makesToo != none) instruction.c = place[makesToo] = take();
-        tape.code_.push_back(instruction);
+    Placing placing(line, std::move(place), firstFree, ends);
+    std::size_t first = 0;
+    for (std::size_t b = 0; b < ends.size(); first = ends[b++]) {
+        const auto block = std::span(line.steps).subspan(first, ends[b] - first);
+        placing.place(b, block);
+        for (const Line::Step& step : block) tape.code_.push_back(step.code);
+        if (isGrouped) addGroups(tape.code_, first, tape.groups_);
     }
-    tape.registers_ = end;
-    for (const Register v : line.outputs) tape.outputs_.push_back(place[v]);
-    if (isGrouped) tape.groups_ = groupsOf(tape.code_);
+    tape.registers_ = placing.end();
+    for (const std::uint32_t v : line.outputs) tape.outputs_.push_back(placing.of(v));
+    tape.findStretches();
     return tape;
 }
 
-void Tape::run(double* r) const {
-    if (groups_.empty()) return detail::run(*this, r);
-    detail::fillConstants(*this, r);
-    for (const TapeGroup& g : groups_) {
-        const Instruction* const code = &code_[g.first];
-        if (g.isLoop)
-            runLoop(g, code, r);
-        else
-            for (std::uint32_t k = 0; k < g.count; ++k) detail::carryOut(*this, code[k], r);
+void Tape::findStretches() {
+    constexpr std::size_t fewOutputs = 4;
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+        if (stretches_.empty() || outputs_[i] != stretches_.back().afterRegister)
+            stretches_.push_back({0, outputs_[i]});
+        stretches_.back() = {static_cast<std::uint32_t>(i + 1), outputs_[i] + 1};
     }
+    if (stretches_.size() * fewOutputs > outputs_.size()) stretches_.clear();
+}
+
+void Tape::copyOutputs(std::size_t first, std::size_t count, const double* r, double* to) const {
+    const std::size_t end = first + count;
+    if (stretches_.empty()) {
+        for (std::size_t i = first; i < end; ++i) *to++ = r[outputs_[i]];
+        return;
+    }
+    for (const auto& [last, afterRegister] : stretches_) {
+        if (last <= first) continue;
+        const std::size_t here = std::min<std::size_t>(last, end) - first;
+        to = std::copy_n(r + outputs_[first], here, to);
+        if ((first += here) == end) return;
+    }
+}
+
+void Tape::run(double* r) const {
+    if (groups_.empty())
+        detail::run(*this, r);
+    else
+        runGroups(*this, r);
 }
 
 }  // namespace extremal::typed

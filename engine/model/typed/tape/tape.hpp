@@ -5,8 +5,9 @@
 /// longer needed. Every common part is computed once; integer powers are products, x^(n/2) products of one
 /// square root, and sin and cos of one angle a single call. Of long formulas with many parts alike, such as
 /// the sums over a chain, instructions are in groups that are carried out as loops (tape_groups.hpp), and
-/// registers are not reused. Evaluation allocates nothing and changes nothing
-/// but the caller's registers, so any number of threads may share a tape.
+/// registers are given out so that what a loop reads and writes stands side by side where it can. Evaluation
+/// allocates nothing and changes nothing but the caller's registers, so any number of threads may share a
+/// tape.
 #pragma once
 
 #include <cstdint>
@@ -40,12 +41,13 @@ struct Instruction {
     std::uint32_t to, a, b, c;
 };
 
-/// Instructions of one operation that do not read each other's results; registers are written in order.
+/// Instructions of one operation that do not read each other's results; the registers that they write are
+/// side by side, and those of several instructions are none of those that they read.
 struct TapeGroup {
-    enum class Operand : std::uint8_t { single, sideBySide };
+    /// Of all instructions together: one register, registers side by side, or neither.
+    enum class Operand : std::uint8_t { single, sideBySide, scattered };
     std::uint32_t first = 0, count = 1;
-    bool isLoop = false;     ///< several instructions of arithmetic
-    bool isRegular = false;  ///< every operand is one register, or registers side by side
+    bool isLoop = false;  ///< several instructions of arithmetic
     Operand a = Operand::single, b = Operand::single, c = Operand::single;
 };
 
@@ -77,14 +79,23 @@ public:
     const T& output(std::size_t i, const T* r) const {
         return r[outputs_[i]];
     }
+    /// Outputs first, first + 1, ... of those that were computed last.
+    void copyOutputs(std::size_t first, std::size_t count, const double* r, double* to) const;
 
 private:
+    /// Outputs whose registers are side by side, up to the output `end`.
+    struct Stretch {
+        std::uint32_t end, afterRegister;  ///< afterRegister: one past that of the last
+    };
+    void findStretches();
+
     std::size_t inputs_ = 0, registers_ = 0;
     std::vector<double> constants_;
     std::vector<Instruction> code_;
     std::vector<TapeGroup> groups_;
     std::vector<LookUp> tables_;
     std::vector<std::uint32_t> outputs_;
+    std::vector<Stretch> stretches_;  ///< of the outputs; empty where most of them are short
 };
 
 }  // namespace extremal::typed

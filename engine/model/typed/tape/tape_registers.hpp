@@ -3,9 +3,11 @@
 /// are long, only the one that ran last may be read.
 #pragma once
 
+#include <cstddef>
 #include <iterator>
 #include <vector>
 
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal::typed {
@@ -23,15 +25,20 @@ public:
     TapeRegisters& operator=(const TapeRegisters&) = delete;
 
     double operator[](std::size_t output) const { return tape_.output(output, at_); }
+    /// Outputs first, first + 1, ...
+    void copy(std::size_t first, std::size_t count, double* to) const {
+        tape_.copyOutputs(first, count, at_, to);
+    }
 
 private:
     static double* large(std::size_t size) {
-        thread_local std::vector<double> registers;
-        if (registers.size() < size) registers.resize(size);
-        return registers.data();
+        thread_local std::vector<Lanes> registers;  // they begin at a line of the cache
+        const std::size_t lines = (size + Lanes::size - 1) / Lanes::size;
+        if (registers.size() < lines) registers.resize(lines);
+        return registers.data()->lane.data();
     }
     const Tape& tape_;
-    double small_[192];
+    alignas(Lanes) double small_[192];
     double* at_;
 };
 

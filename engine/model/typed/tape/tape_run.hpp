@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The instructions of a tape, carried out on numbers or on eight numbers together (Lanes).
+/// The instructions of a tape, carried out on numbers or on eight numbers together (Lanes). Of numbers alone
+/// groups are in tape_groups.hpp.
 #pragma once
 
 #include <cmath>
@@ -173,10 +174,58 @@ void fillConstants(const Tape& tape, T* r) {
     for (const double value : tape.constants()) *constant++ = T(value);
 }
 
+/// One after the other, whether there are groups or not.
 template <class T>
 void run(const Tape& tape, T* r) {
     fillConstants(tape, r);
     for (const Instruction& i : tape.code()) carryOut(tape, i, r);
+}
+
+/// A group that is a loop; what it reads may be anywhere.
+template <class T, class F>
+void loop(const TapeGroup& g, const Instruction* code, T* r, F&& f) {
+    T* to = r + code->to;
+    for (std::uint32_t k = 0; k < g.count; ++k) *to++ = f(r[code[k].a], r[code[k].b], r[code[k].c]);
+}
+template <class T>
+void carryOutLoop(const TapeGroup& g, const Instruction* code, T* r) {
+    using std::sqrt;
+    using V = const T&;
+    switch (code->op) {
+        case Op::add:
+            return loop(g, code, r, [](V a, V b, V) { return a + b; });
+        case Op::subtract:
+            return loop(g, code, r, [](V a, V b, V) { return a - b; });
+        case Op::multiply:
+            return loop(g, code, r, [](V a, V b, V) { return a * b; });
+        case Op::multiplyAdd:
+            return loop(g, code, r, [](V a, V b, V c) { return a * b + c; });
+        case Op::multiplySubtract:
+            return loop(g, code, r, [](V a, V b, V c) { return a * b - c; });
+        case Op::subtractProduct:
+            return loop(g, code, r, [](V a, V b, V c) { return c - a * b; });
+        case Op::negate:
+            return loop(g, code, r, [](V a, V, V) { return -a; });
+        case Op::reciprocal:
+            return loop(g, code, r, [](V a, V, V) { return T(1) / a; });
+        case Op::sqrt:
+            return loop(g, code, r, [](V a, V, V) { return sqrt(a); });
+        default:
+            return;
+    }
+}
+
+/// In groups where there are some.
+inline void runInGroups(const Tape& tape, Lanes* r) {
+    if (tape.groups().empty()) return run(tape, r);
+    fillConstants(tape, r);
+    for (const TapeGroup& g : tape.groups()) {
+        const Instruction* const code = &tape.code()[g.first];
+        if (g.isLoop)
+            carryOutLoop(g, code, r);
+        else
+            for (std::uint32_t k = 0; k < g.count; ++k) carryOut(tape, code[k], r);
+    }
 }
 
 }  // namespace extremal::typed::detail
