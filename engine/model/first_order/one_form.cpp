@@ -5,7 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <utility>
 
+#include "engine/core/algebra/dense.hpp"
+#include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/core/algebra/lu.hpp"
 #include "engine/core/corrections.hpp"
 #include "engine/core/own_buffers.hpp"
@@ -20,8 +25,36 @@ bool isSingular(const Eigen::PartialPivLU<Eigen::MatrixXd>& lu) {
     return !(pivots.minCoeff() > singularForm * pivots.maxCoeff());
 }
 
+int at(const std::vector<int>& list, int i) { return list[static_cast<std::size_t>(i)]; }
+
+/// P = c + B q + A y.
+struct AffineMomenta {
+    Eigen::VectorXd constant;
+    Eigen::MatrixXd ofPlaces, ofFree, toFree;  ///< B, A, A^{-1}
+
+    explicit AffineMomenta(const OneForm& of) {
+        const int n = static_cast<int>(of.places.size());
+        const auto m = static_cast<std::size_t>(of.variables);
+        std::vector<double> theta(m), slopes(m * m);
+        const std::vector<double> origin(m, 0.0);
+        of.form(of.planeModel(), origin.data(), theta.data(), slopes.data(), nullptr);
+        constant = Eigen::VectorXd::Zero(n);
+        ofPlaces = ofFree = Eigen::MatrixXd::Zero(n, n);
+        for (int j = 0; j < n; ++j) {
+            const auto row = static_cast<std::size_t>(at(of.places, j));
+            constant(j) = theta[row];
+            for (int k = 0; k < n; ++k) {
+                ofPlaces(j, k) = slopes[row * m + static_cast<std::size_t>(at(of.places, k))];
+                ofFree(j, k) = slopes[row * m + static_cast<std::size_t>(at(of.free, k))];
+            }
+        }
+        toFree = dense::inverse<double>(ofFree);
+    }
+};
+
 struct FormFlow {
     OneForm of;
+    std::optional<AffineMomenta> affine;
     long long id;
 };
 
@@ -31,46 +64,35 @@ public:
     using Vector = Eigen::VectorXd;
     using Matrix = Eigen::MatrixXd;
 
-    explicit Canonical(const OneForm& of)
-        : of_(of),
-          n_(static_cast<int>(of.places.size())),
-          m_(static_cast<std::size_t>(of.variables)),
+    explicit Canonical(const FormFlow& flow)
+        : of_(flow.of),
+          affine_(flow.affine),
+          n_(static_cast<int>(of_.places.size())),
+          m_(static_cast<std::size_t>(of_.variables)),
           lu_(n_),
           schur_(2 * n_) {
-        x_ = theta_ = slope_ = Vector::Zero(of.variables);
+        x_ = theta_ = slope_ = Vector::Zero(of_.variables);
         guess_ = y_ = V_ = r_ = Vector::Zero(n_);
         slopes_.assign(m_ * m_, 0);
         curvatures_.assign(m_ * m_ * m_, 0);
         Py_ = Pq_ = Matrix::Zero(n_, n_);
-        second_ = Matrix::Zero(of.variables, of.variables);
+        second_ = Matrix::Zero(of_.variables, of_.variables);
         inner_ = Matrix::Zero(2 * n_, 2 * n_);
         mixed_ = Matrix::Zero(2 * n_, 2 * n_);
+        if (!affine_) return;
+        Py_ = affine_->ofFree;
+        Pq_ = affine_->ofPlaces;
     }
 
     void setGuess(const double* y) { std::copy_n(y, n_, guess_.data()); }
 
-    /// P(q, y) = p for y_, from the guess.
+    /// P(q, y) = p for y_.
     bool solve(const double* q, const double* p) {
-        y_ = guess_;
-        StepReport report;
-        const CorrectionLimits limits{.last = 2 * CorrectionLimits::epsilon, .roundOff = 1e-12};
-        const Outcome outcome = solveByCorrections(limits, {}, report, [&](int, double) {
-            place(q);
-            of_.form(of_.planeModel(), x_.data(), theta_.data(), slopes_.data(), nullptr);
-            split();
-            for (int j = 0; j < n_; ++j) r_(j) = theta_(at(of_.places, j)) - p[j];
-            lu_.compute(Py_);
-            if (!r_.allFinite() || !Py_.allFinite() || isSingular(lu_))
-                return Correction{.outcome = Outcome::singular};
-            r_ = lu_.solve(r_);
-            y_ -= r_;
-            double size = 0;  // of each by itself
-            for (int j = 0; j < n_; ++j)
-                size = std::max(size, std::abs(r_(j)) / std::max(std::abs(y_(j)), 1e-300));
-            return Correction{size, 1};
-        });
-        const bool isNear = outcome == Outcome::diverged && report.residual < 1e-10;
-        return isNear || (outcome == Outcome::converged && y_.allFinite());
+        if (!affine_) return solveFromGuess(q, p);
+        r_ = Eigen::Map<const Vector>(p, n_) - affine_->constant;
+        r_.noalias() -= Pq_.lazyProduct(Eigen::Map<const Vector>(q, n_));
+        y_.noalias() = affine_->toFree.lazyProduct(r_);
+        return true;
     }
     const Vector& y() const { return y_; }
 
@@ -120,7 +142,29 @@ public:
     }
 
 private:
-    static int at(const std::vector<int>& list, int i) { return list[static_cast<std::size_t>(i)]; }
+    /// By Newton's method.
+    bool solveFromGuess(const double* q, const double* p) {
+        y_ = guess_;
+        StepReport report;
+        const CorrectionLimits limits{.last = 2 * CorrectionLimits::epsilon, .roundOff = 1e-12};
+        const Outcome outcome = solveByCorrections(limits, {}, report, [&](int, double) {
+            place(q);
+            of_.form(of_.planeModel(), x_.data(), theta_.data(), slopes_.data(), nullptr);
+            split();
+            for (int j = 0; j < n_; ++j) r_(j) = theta_(at(of_.places, j)) - p[j];
+            lu_.compute(Py_);
+            if (!r_.allFinite() || !Py_.allFinite() || isSingular(lu_))
+                return Correction{.outcome = Outcome::singular};
+            r_ = lu_.solve(r_);
+            y_ -= r_;
+            double size = 0;  // of each by itself
+            for (int j = 0; j < n_; ++j)
+                size = std::max(size, std::abs(r_(j)) / std::max(std::abs(y_(j)), 1e-300));
+            return Correction{size, 1};
+        });
+        const bool isNear = outcome == Outcome::diverged && report.residual < 1e-10;
+        return isNear || (outcome == Outcome::converged && y_.allFinite());
+    }
 
     void place(const double* q) {
         for (int j = 0; j < n_; ++j) {
@@ -139,16 +183,21 @@ private:
     /// P_y, P_q, V = P_y^{-T} H_y, and the derivatives of H, at (q, y_).
     void derivatives(const double* q, double* curvatures) {
         place(q);
-        of_.form(of_.planeModel(), x_.data(), theta_.data(), slopes_.data(), curvatures);
-        split();
         double value = 0;
         of_.energy(of_.model.get(), x_.data(), &value, slope_.data(), curvatures ? second_.data() : nullptr);
-        lu_.compute(Py_);
         for (int j = 0; j < n_; ++j) r_(j) = slope_(at(of_.free, j));
+        if (affine_) {
+            V_.noalias() = affine_->toFree.transpose().lazyProduct(r_);
+            return;
+        }
+        of_.form(of_.planeModel(), x_.data(), theta_.data(), slopes_.data(), curvatures);
+        split();
+        lu_.compute(Py_);
         V_ = lu_.transpose().solve(r_);
     }
 
     OneForm of_;
+    std::optional<AffineMomenta> affine_;
     int n_;
     std::size_t m_;
     Vector x_, theta_, slope_, guess_, y_, V_, r_;
@@ -159,7 +208,7 @@ private:
 
 Canonical& ownCanonical(const void* model) {
     const auto& flow = *static_cast<const FormFlow*>(model);
-    return ownBuffers<Canonical>(flow.id, flow.of);
+    return ownBuffers<Canonical>(flow.id, flow);
 }
 
 double canonicalEnergy(const void* model, double, const double* q, const double* p) {
@@ -181,6 +230,46 @@ void canonicalHessian(const void* model, double, const double* q, const double* 
         own.hessian(q, hessian);
     else
         std::fill_n(hessian, n * n, std::numeric_limits<double>::quiet_NaN());
+}
+
+constexpr int mostTogether = 32;  // variables whose derivatives at eight nodes fit on the stack
+
+/// to += factor M from, or M^T, at eight nodes.
+void addProduct(const Eigen::MatrixXd& M, bool isTransposed, double factor, const Lanes* from, Lanes* to) {
+    const int n = static_cast<int>(M.rows());
+    for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+            if (const double entry = isTransposed ? M(j, k) : M(k, j); entry != 0)
+                to[k] += Lanes(factor * entry) * from[j];
+}
+
+/// Of an affine form: y = A^{-1} (p - c - B q), V = A^{-T} H_y and H_q - B^T V.
+void affineGradients(const void* model, const double*, int nodes, const double* q, const double* p,
+                     double* gradients) {
+    const auto& [of, affine, id] = *static_cast<const FormFlow*>(model);
+    const int n = static_cast<int>(of.places.size());
+    Lanes x[mostTogether], slope[mostTogether];
+    for (int i = 0; i < nodes; i += 8) {
+        Lanes places[mostTogether / 2], rest[mostTogether / 2], y[mostTogether / 2], V[mostTogether / 2];
+        for (int k = 0; k < n; ++k) {
+            places[k] = x[at(of.places, k)] = Lanes::load(q + k * nodes + i);
+            rest[k] = Lanes::load(p + k * nodes + i) - Lanes(affine->constant(k));
+        }
+        addProduct(affine->ofPlaces, false, -1, places, rest);
+        addProduct(affine->toFree, false, 1, rest, y);
+        for (int k = 0; k < n; ++k) x[at(of.free, k)] = y[k];
+        of.gradients(of.model.get(), 8, x->lane.data(), slope->lane.data());
+        for (int k = 0; k < n; ++k) {
+            places[k] = slope[at(of.places, k)];
+            rest[k] = slope[at(of.free, k)];
+        }
+        addProduct(affine->toFree, true, 1, rest, V);
+        addProduct(affine->ofPlaces, true, -1, V, places);
+        for (int k = 0; k < n; ++k) {
+            places[k].store(gradients + k * nodes + i);
+            V[k].store(gradients + (n + k) * nodes + i);
+        }
+    }
 }
 
 }  // namespace
@@ -238,7 +327,11 @@ FirstOrder firstOrderOf(const OneForm& of) { return firstOrderBy<OneFormEquation
 PhaseMechanics canonicalOf(const OneForm& of) {
     PhaseMechanics made;
     made.dimension = static_cast<int>(of.places.size());
-    made.model = std::make_shared<const FormFlow>(FormFlow{of, nextModelId()});
+    std::optional<AffineMomenta> affine;
+    if (of.isAffine) affine.emplace(of);
+    if (affine && of.gradients && of.variables <= mostTogether)
+        made.gradients = ForThisMachine<&affineGradients>::call();
+    made.model = std::make_shared<const FormFlow>(FormFlow{of, std::move(affine), nextModelId()});
     made.energy = canonicalEnergy;
     made.gradient = canonicalGradient;
     made.hessian = canonicalHessian;

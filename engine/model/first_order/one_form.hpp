@@ -30,10 +30,14 @@ struct OneForm {
     void (*form)(const void*, const double* x, double* theta, double* slopes, double* curvatures) = nullptr;
     /// Likewise.
     void (*energy)(const void*, const double* x, double* value, double* gradient, double* hessian) = nullptr;
+    /// Gradients of H at many nodes together, where the system offers it (null else): entry k of node i at
+    /// k * nodes + i, likewise x; `nodes` is a multiple of 8.
+    void (*gradients)(const void*, int nodes, const double* x, double* gradients) = nullptr;
 
     std::vector<int> places, free;  ///< q and y
     /// First argument of `form` for theta - d chi, in which y has no velocity; null where theta is so itself.
     std::shared_ptr<const void> gauged;
+    bool isAffine = false;  ///< P(q, y) is
     bool hasPlane() const { return !places.empty(); }
     const void* planeModel() const { return gauged ? gauged.get() : model.get(); }
 };
@@ -60,7 +64,9 @@ private:
 FirstOrder firstOrderOf(const OneForm& of);
 
 /// The Hamiltonian of (q, p), p = P(q, y), of a form with a plane: H(q, Y(q, p)), where Y is found by
-/// Newton's method from the place that this thread has been told last. Not a number where it finds none.
+/// Newton's method from the place that this thread has been told last. Not a number where it finds none. Of
+/// an affine P, as of point vortices, Y is affine too and known at once, and gradients at many nodes are
+/// those of H.
 ///
 /// With F = H - P . V stationary in y and V, d H~/dp = V, d H~/dq = F_q, and the Hessian is the Schur
 /// complement of that of F: P_y is inverted, and no formula for Y is needed.

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
+#include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/model/typed/tape/tape_registers.hpp"
 
 namespace extremal::typed {
@@ -26,6 +29,21 @@ void checkNames(const std::string& text, const Formula& formula) {
             throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position,
                                   "it may use " + joinNames(known));
     }
+}
+
+/// `tape`: the gradient, behind f where there are `values`.
+void outputsOfNodes(const Tape& tape, int nodes, const double* y, double* values, double* gradients) {
+    const int variables = static_cast<int>(tape.inputs());
+    for (int i = 0; i < nodes; i += 8)
+        runEight(
+            tape,
+            [&](Lanes* r) {
+                for (int k = 0; k < variables; ++k) r[k] = Lanes::load(y + k * nodes + i);
+            },
+            [&](std::size_t output, const Lanes& value) {
+                const int k = static_cast<int>(output) - (values ? 1 : 0);
+                value.store((k < 0 ? values : gradients + k * nodes) + i);
+            });
 }
 
 }  // namespace
@@ -61,12 +79,17 @@ void TypedFunction::compile(const Formula& formula) {
             if (k < 0) return {};
             return formula.parameters[static_cast<std::size_t>(k)].second;
         });
-    value_ = Tape::of(graph, std::vector<int>{here.front()}, d);
-    all_ = Tape::of(graph, here, d);
+    const std::span<const int> all(here);
+    value_ = Tape::of(graph, all.first(1), d);
+    gradient_ = Tape::of(graph, all.subspan(1, static_cast<std::size_t>(d)), d);
+    slopes_ = Tape::of(graph, all.first(static_cast<std::size_t>(1 + d)), d);
+    all_ = Tape::of(graph, all, d);
+    isAffine_ =
+        std::all_of(here.begin() + 1 + d, here.end(), [&](int second) { return graph.isZero(second); });
 }
 
 void TypedFunction::evaluate(const double* y, double* value, double* gradient, double* hessian) const {
-    const Tape& tape = gradient || hessian ? all_ : value_;
+    const Tape& tape = hessian ? all_ : gradient ? slopes_ : value_;
     const TapeRegisters r(tape, [&](double* front) { std::copy_n(y, variables_, front); });
     const auto d = static_cast<std::size_t>(variables_);
     *value = r[0];
@@ -74,6 +97,11 @@ void TypedFunction::evaluate(const double* y, double* value, double* gradient, d
         for (std::size_t i = 0; i < d; ++i) gradient[i] = r[1 + i];
     if (hessian)
         for (std::size_t i = 0; i < d * (d + 1) / 2; ++i) hessian[i] = r[1 + d + i];
+}
+
+void TypedFunction::evaluateNodes(int nodes, const double* y, double* values, double* gradients) const {
+    static const auto call = ForThisMachine<&outputsOfNodes>::call();
+    call(values ? slopes_ : gradient_, nodes, y, values, gradients);
 }
 
 }  // namespace extremal::typed

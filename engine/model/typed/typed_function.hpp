@@ -2,8 +2,8 @@
 /// A typed function of one or more variables with its first and second derivatives.
 ///
 /// f(y_0, ..), an expression in the names of its variables and parameters, differentiated symbolically and
-/// flattened to one tape: f, df/dy_i, d2f/dy_i dy_j. Errors are InvalidScene with the pointer given and a
-/// caret below the place.
+/// flattened to tapes: f alone, with df/dy_i, and with d2f/dy_i dy_j. Errors are InvalidScene with the
+/// pointer given and a caret below the place.
 #pragma once
 
 #include <memory>
@@ -29,6 +29,11 @@ public:
     /// Fills f, then the gradient, then the lower triangle of the Hessian row by row; any of the last two may
     /// be null.
     void evaluate(const double* y, double* value, double* gradient, double* hessian) const;
+    /// The gradients at many nodes together, and f unless `values` is null: entry k of node i at k * nodes +
+    /// i, likewise y; `nodes` is a multiple of 8.
+    void evaluateNodes(int nodes, const double* y, double* values, double* gradients) const;
+    /// Whether all second derivatives are 0 as formulas.
+    bool isAffine() const { return isAffine_; }
     /// Instructions of one evaluation with all derivatives.
     std::size_t length() const { return all_.length(); }
     double operator()(const double* y) const {
@@ -41,7 +46,8 @@ private:
     void compile(const Formula& formula);
 
     int variables_;
-    Tape value_, all_;
+    bool isAffine_ = false;
+    Tape value_, gradient_, slopes_, all_;  ///< slopes: f and its gradient
 };
 
 }  // namespace extremal::typed

@@ -49,6 +49,15 @@ void formEnergyAt(const void* model, const double* x, double* value, double* gra
     evaluateWhole(static_cast<const FormModel*>(model)->energy, x, value, gradient, hessian);
 }
 
+void formEnergyGradients(const void* model, int nodes, const double* x, double* gradients) {
+    static_cast<const FormModel*>(model)->energy.evaluateNodes(nodes, x, nullptr, gradients);
+}
+
+bool isAffine(const std::vector<std::optional<TypedFunction>>& theta) {
+    return std::all_of(theta.begin(), theta.end(),
+                       [](const auto& each) { return !each || each->isAffine(); });
+}
+
 /// Whether Om, and with a plane P_y, is regular somewhere.
 bool isRegular(const OneForm& form) {
     OneFormEquations equations(form);
@@ -71,12 +80,14 @@ void findPlane(OneForm& form, const FormModel& model, const TypedForm& typed) {
     if (moving.size() == still.size()) {
         form.places = moving;
         form.free = still;
+        form.isAffine = isAffine(model.theta);
         return;
     }
     auto found = gaugedForm(typed.names, typed.parameters, typed.theta, model.theta);
     if (!found) return;
     form.places = found->places;
     form.free = found->free;
+    form.isAffine = isAffine(found->theta);
     form.gauged = std::make_shared<FormModel>(FormModel{model.m, std::move(found->theta), model.energy});
 }
 
@@ -136,6 +147,7 @@ TypedOneForm oneFormOf(const Settings& settings) {
     made.form.variables = static_cast<int>(names.size());
     made.form.form = formAt;
     made.form.energy = formEnergyAt;
+    made.form.gradients = formEnergyGradients;
     made.form.model = model;
     findPlane(made.form, *model, typed);
     made.cyclic = cyclicOf(made.form);
