@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 
+#include "engine/core/algebra/small_product.hpp"
 #include "engine/core/text/archive.hpp"
 
 namespace extremal {
@@ -25,7 +26,10 @@ class NodeGuess {
 public:
     using Nodes = Eigen::Matrix<double, Eigen::Dynamic, D>;
 
-    NodeGuess(int nodes, int dimension) {
+    explicit NodeGuess(const Eigen::MatrixXd& ahead, int dimension) : sums_(nodeSums()) {
+        const Eigen::Index nodes = ahead.rows();
+        ahead_ = Eigen::MatrixXd::Zero((nodes + 7) / 8 * 8, nodes);
+        ahead_.topRows(nodes) = ahead;
         first_.K = first_.F = older_.K = older_.F = Nodes::Zero(nodes, dimension);
         differences_.fill(first_);
     }
@@ -36,9 +40,9 @@ public:
         isMade_ = false;
     }
     /// Of the rates of the last step to a guess for the next one.
-    void make(const Eigen::MatrixXd& ahead, const Nodes& K, const Nodes& F, Nodes& nextK, Nodes& nextF) {
-        first_.K.noalias() = ahead.lazyProduct(K);
-        first_.F.noalias() = ahead.lazyProduct(F);
+    void make(const Nodes& K, const Nodes& F, Nodes& nextK, Nodes& nextF) {
+        continueRates(K, first_.K);
+        continueRates(F, first_.F);
         isMade_ = true;
         nextK = first_.K;
         nextF = first_.F;
@@ -77,6 +81,12 @@ public:
     }
 
 private:
+    /// ahead X
+    void continueRates(const Nodes& X, Nodes& to) const {
+        const int n = static_cast<int>(X.rows()), rows = static_cast<int>(ahead_.rows());
+        to.setZero();
+        sums_.product({ahead_.data(), rows, X.data(), n, to.data(), n, n, static_cast<int>(X.cols()), n});
+    }
     struct Rates {
         Nodes K, F;
         void swap(Rates& other) {
@@ -89,6 +99,8 @@ private:
         return values.cwiseAbs().sum() + 1e-300;
     }
 
+    NodeSums sums_;
+    Eigen::MatrixXd ahead_;              ///< rows beyond the nodes are 0
     Rates first_;                        ///< the guess of the step that is being made, with r = 0
     std::array<Rates, 5> differences_;   ///< D^j o of the last step
     Rates newer_, older_;                ///< while they are renewed

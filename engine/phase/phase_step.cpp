@@ -15,6 +15,7 @@
 #include "engine/core/dimension.hpp"
 #include "engine/phase/node_guess.hpp"
 #include "engine/phase/phase_cell.hpp"
+#include "engine/phase/phase_lanes.hpp"
 #include "engine/phase/phase_newton.hpp"
 #include "engine/solve/correction_size.hpp"
 #include "engine/solve/fixed_point_policy.hpp"
@@ -77,10 +78,10 @@ public:
           h_(step) {
         const int n = cell_.nodes();
         for (Nodes* nodes : {&K_, &F_, &newK_, &newF_, &Q_, &P_}) *nodes = Nodes::Zero(n, d());
-        if (cell_.ahead.size() > 0) guess_.emplace(n, d());
+        if (cell_.ahead.size() > 0) guess_.emplace(cell_.ahead, d());
         for (Vector* v : {&q0_, &p0_, &q1_, &p1_, &q_, &p_, &lostQ_, &lostP_}) *v = Vector::Zero(d());
         gradient_.assign(static_cast<std::size_t>(2 * d()), 0);
-        if (H_.gradients && n > 2) prepareLanes();
+        if (H_.gradients && n > 2) lanes_.emplace(H_, cell_);
     }
 
     double stepSize() const override { return h_; }
@@ -167,7 +168,7 @@ private:
         if (policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
             Outcome attempt = Outcome::diverged;
             if (isContinued && guess_) {
-                guess_->make(cell_.ahead, K_, F_, newK_, newF_);
+                guess_->make(K_, F_, newK_, newF_);
                 attempt = iterate();
             }
             // What the last step says of this one may be of no use.
@@ -217,54 +218,34 @@ private:
         }
     }
 
-    /// Of nodes that are evaluated together: rows beyond the last node are at the start of the step.
-    void prepareLanes() {
-        const int n = cell_.nodes(), rows = (n + 7) / 8 * 8;
-        lanesOfA_ = lanesOfB_ = Eigen::MatrixXd::Zero(rows, n);
-        lanesOfA_.topRows(n) = cell_.A;
-        lanesOfB_.topRows(n) = cell_.B;
-        lanesFromStart_ = times_ = Eigen::VectorXd::Ones(rows);
-        lanesFromStart_.head(n) = cell_.fromStart;
-        lanesQ_ = lanesP_ = Nodes::Zero(rows, d());
-        slopes_ = Eigen::MatrixXd::Zero(rows, 2 * d());
-    }
-    void evaluateTogether() {
-        const int n = cell_.nodes(), rows = static_cast<int>(times_.size());
-        lanesQ_.noalias() = lanesOfA_.lazyProduct(K_);
-        lanesP_.noalias() = lanesOfB_.lazyProduct(F_);
-        for (int k = 0; k < d(); ++k) {
-            lanesQ_.col(k) = (h_ * lanesQ_.col(k)).array() + q0_(k);
-            lanesP_.col(k) = h_ * lanesP_.col(k) + p0_(k) * lanesFromStart_;
+    /// Gives what it has changed, each coordinate against its own increments and the round-off of its value.
+    double sweep() {
+        if (lanes_) {
+            report_.cost.evaluations += cell_.nodes();
+            return lanes_->sweep(start_, h_, q0_.data(), p0_.data());
         }
-        times_.setConstant(start_);
-        if (H_.isTimeDependent) times_.head(n) += h_ * cell_.place;
-        H_.gradients(H_.model.get(), times_.data(), rows, lanesQ_.data(), lanesP_.data(), slopes_.data());
-        report_.cost.evaluations += n;
-        newF_ = -slopes_.leftCols(d()).topRows(n);
-        newK_ = slopes_.rightCols(d()).topRows(n);
+        K_.swap(newK_);
+        F_.swap(newF_);
+        placeNodes();
+        evaluateNodes();
+        return change();
     }
 
-    /// From newK and newF, and back to K and F.
+    /// From newK and newF to K and F.
     Outcome iterate() {
         using Verdict = FixedPointPolicy<double>::Verdict;
-        constexpr int most = 200;
-        FixedPointPolicy<double> policy(tolerance_);
-        for (int sweep = 0; sweep < most; ++sweep) {
+        constexpr int most = 200, worthTogether = 60, worthOneByOne = 21;  // sweeps
+        FixedPointPolicy<double> policy(tolerance_, lanes_ ? worthTogether : worthOneByOne);
+        if (lanes_) lanes_->start(newK_, newF_);
+        for (int k = 0; k < most; ++k) {
             if (stop().stop_requested()) return Outcome::stopped;
-            K_.swap(newK_);
-            F_.swap(newF_);
-            if (times_.size() > 0) {
-                evaluateTogether();
-            } else {
-                placeNodes();
-                evaluateNodes();
-            }
+            report_.residual = sweep();
             ++report_.cost.iterations;
-            report_.residual = change();
             const Verdict verdict = policy.judge(report_.residual);
             if (verdict == Verdict::notFinite) return Outcome::notFinite;
             if (verdict == Verdict::slow) return Outcome::diverged;
             if (verdict == Verdict::converged) {
+                if (lanes_) lanes_->rates(newK_, newF_);
                 K_.swap(newK_);
                 F_.swap(newF_);
                 return Outcome::converged;
@@ -273,8 +254,6 @@ private:
         return Outcome::diverged;
     }
 
-    /// What the last sweep has changed, each coordinate against its own increments and the round-off of its
-    /// value.
     double change() const {
         const double h = std::abs(h_);
         double worst = 0;
@@ -345,9 +324,7 @@ private:
     Vector q0_, p0_, q1_, p1_, q_, p_, lostQ_, lostP_;
     std::vector<double> gradient_;
     std::optional<NodeGuess<D>> guess_;  ///< of the next step; none where its nodes are beyond the space
-    Nodes lanesQ_, lanesP_;
-    Eigen::MatrixXd lanesOfA_, lanesOfB_, slopes_;  ///< slopes: node i, coordinates, then momenta
-    Eigen::VectorXd lanesFromStart_, times_;        ///< empty: node after node
+    std::optional<PhaseLanes> lanes_;    ///< none: node after node
     double start_ = 0, curveStep_ = 0;
     bool hasCurve_ = false;
     int newtonSteps_ = 0;  ///< steps for which Newton's method is preferred

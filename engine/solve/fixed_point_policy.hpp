@@ -21,8 +21,10 @@ class FixedPointPolicy {
 public:
     enum class Verdict { converged, proceed, slow, notFinite };
 
-    /// `tolerance`: relative size of the last correction; at most epsilon: solve to round-off.
-    explicit FixedPointPolicy(const T& tolerance) : tolerance_(tolerance) {}
+    /// `tolerance`: relative size of the last correction; at most epsilon: solve to round-off. `worth`: so
+    /// many sweeps cost what a step of Newton's method costs, which is 20 to 60 of them where nodes are
+    /// evaluated one by one.
+    explicit FixedPointPolicy(const T& tolerance, int worth = 21) : tolerance_(tolerance), worth_(worth) {}
 
     Verdict judge(const T& size) {
         if (!(size < std::numeric_limits<T>::infinity())) return Verdict::notFinite;
@@ -40,7 +42,7 @@ public:
         if (hasBuried_) return judgeApart(measure());
         const Verdict verdict = judge(size);
         if (verdict != Verdict::slow || !(measure().size < size)) return verdict;
-        *this = FixedPointPolicy(tolerance_);
+        *this = FixedPointPolicy(tolerance_, worth_);
         hasBuried_ = true;
         return Verdict::proceed;
     }
@@ -79,13 +81,16 @@ private:
         return (size < 8 * epsilon && isSudden) ||
                (size < roundOffOfSums<T>() && size >= earlier_[2] * T(stall));
     }
-    /// More than 21 sweeps from round-off: Newton's method is cheaper, whose step costs 20 to 60 of them.
+    /// More sweeps from round-off than Newton's method is worth.
     bool isFar(const T& size) const {
-        const T ratio = size / earlier_[2], square = ratio * ratio;  // of three sweeps
-        return size * square * square * square * ratio > (tolerance_ > epsilon ? tolerance_ : epsilon);
+        const T ratio = size / earlier_[2];  // of three sweeps
+        T then = size;
+        for (int sweeps = 3; sweeps <= worth_; sweeps += 3) then *= ratio;
+        return then > (tolerance_ > epsilon ? tolerance_ : epsilon);
     }
 
     T tolerance_;
+    int worth_;
     bool hasBuried_ = false;
     BuriedWatch<T> buried_;
     int sweeps_ = 0;

@@ -281,6 +281,32 @@ private slots:
         }
     }
     /// At a step where the fixed point does not contract.
+    /// With gradients at all nodes together, and node by node; steps of several lengths, one after the other.
+    void nodesTogetherMakeTheStepsOfEachByItself_data() { gaussIsCollocation_data(); }
+    void nodesTogetherMakeTheStepsOfEachByItself() {
+        QFETCH(QString, name);
+        const Motion of = motionOf(name);
+        System apart = of.system;
+        PhaseMechanics oneByOne = apart.part<PhaseMechanics>();
+        QVERIFY(oneByOne.gradients);
+        oneByOne.gradients = nullptr;
+        apart.parts.set(oneByOne);
+        const auto ends = [&](const System& system, const Discretization& d) {
+            const auto integrator = makeIntegrator(system, d, {0, 0.05});
+            State s = of.start;
+            for (const double h : {0.05, 0.05, 0.05, 0.03, 0.03, 0.06}) {
+                if (integrator->stepSize() != h) integrator->setStep(h);
+                if (integrator->advance(s, s.t + h).outcome != Outcome::converged) qFatal("a step failed");
+            }
+            return s;
+        };
+        for (const int s : {2, 3, 7, 8, 9, 12})
+            for (const Settings& rule : {gaussRule(s), gaussRule(s + 2), lobattoRule(s + 1)}) {
+                const Discretization d = laws::polynomialPair(s, rule);
+                const double apartBy = largestDifference(ends(of.system, d), ends(apart, d));
+                QVERIFY2(apartBy < 5e-15, qPrintable(QString("s = %1: %2").arg(s).arg(apartBy)));
+            }
+    }
     void newtonTakesWhatTheFixedPointCannot() {
         const Motion of{typedHamiltonian({"x"}, "p_x^2/2*(1+x^2/10) + 200*x^2"), {0, 0, {0.3, 1}}};
         Discretization d = laws::polynomialPair(2, gaussRule(2));

@@ -66,6 +66,16 @@ private slots:
         QCOMPARE(lastOf(eps, {0.1, 0.03, 9e-3, 3e-3, 9e-4}), Verdict::slow);
         QCOMPARE(lastOf(eps, {0.1, 0.2, 0.4, 0.8, 1.6}), Verdict::slow);
     }
+    /// Where sweeps are cheap.
+    void itIsSlowLaterWhereNewtonsMethodIsWorthMoreSweeps() {
+        for (const double contraction : {0.2, 0.4, 0.5, 0.6, 1.5}) {
+            Policy policy(eps, 60);
+            Verdict verdict = Verdict::proceed;
+            for (int sweep = 0; sweep < 5; ++sweep)
+                verdict = policy.judge(0.1 * std::pow(contraction, sweep));
+            QCOMPARE(verdict, contraction < 0.55 ? Verdict::proceed : Verdict::slow);
+        }
+    }
     void roundOffIsASuddenStallOrNoProgressInThreeSweeps() {
         QCOMPARE(lastOf(eps, {1e-11, 1e-13, 1.7e-15, 1.2e-15}), Verdict::converged);
         QCOMPARE(lastOf(eps, {1e-8, 4e-13, 2e-13}), Verdict::proceed);          // not so far above it
