@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "engine/core/algebra/differences.hpp"
@@ -41,6 +42,13 @@ public:
         for (std::size_t i = 0, k = 0; i < n; ++i)
             for (std::size_t j = 0; j <= i; ++j, ++k) hessian[i * n + j] = hessian[j * n + i] = lower[k];
     }
+    bool hasNodes() const override {
+        constexpr int few = 16;  // as for gradients of H
+        return dimension_ <= few;
+    }
+    void evaluateNodes(int nodes, const double* x, double* values, double* gradients) const override {
+        function_.evaluateNodes(nodes, x, values, gradients);
+    }
 
 private:
     /// With its definitions in place; later ones may use those before them.
@@ -70,6 +78,7 @@ struct LocalMotion {
           slope(at),
           rate(at),
           second(at),
+          hessianAt(Vector::Constant(d, std::numeric_limits<double>::quiet_NaN())),
           hessian(Matrix::Zero(2 * d, 2 * d)),
           block(Matrix::Zero(d, d)) {}
 
@@ -78,15 +87,19 @@ struct LocalMotion {
     }
     void differentiate(bool twice) {
         H.gradient(H.model.get(), 0, at.data(), at.data() + d, slope.data());
-        if (twice) H.hessian(H.model.get(), 0, at.data(), at.data() + d, hessian.data());
+        if (!twice || knowsHessian()) return;
+        H.hessian(H.model.get(), 0, at.data(), at.data() + d, hessian.data());
+        hessianAt = at.head(d);
     }
+    /// Of a separable H it depends on q alone.
+    bool knowsHessian() const { return H.isSeparable() && at.head(d) == hessianAt; }
     auto qq() const { return hessian.topLeftCorner(d, d); }
     auto qp() const { return hessian.topRightCorner(d, d); }
     auto pp() const { return hessian.bottomRightCorner(d, d); }
 
     PhaseMechanics H;
     int d;
-    Vector at, slope, rate, second;
+    Vector at, slope, rate, second, hessianAt;
     Matrix hessian, block;
 };
 
@@ -189,10 +202,21 @@ public:
         }
         if (gradient)
             for (int k = 0; k < n_; ++k) gradient[k] *= first;
-        *value = std::isinf(*value) ? most_ : *value * share;
+        *value = bounded(*value);
+    }
+    bool hasNodes() const override { return monitor_->hasNodes(); }
+    void evaluateNodes(int nodes, const double* x, double* values, double* gradients) const override {
+        monitor_->evaluateNodes(nodes, x, values, gradients);
+        for (int k = 0; k < n_; ++k)
+            for (int i = 0; i < nodes; ++i) {
+                const double share = 1 / (1 + values[i] / most_);
+                gradients[k * nodes + i] *= share * share;
+            }
+        std::transform(values, values + nodes, values, [this](double g) { return bounded(g); });
     }
 
 private:
+    double bounded(double g) const { return std::isinf(g) ? most_ : g / (1 + g / most_); }
     std::shared_ptr<const Monitor> monitor_;
     int n_;
     double most_;

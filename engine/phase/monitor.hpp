@@ -34,6 +34,12 @@ public:
     virtual void evaluate(const double* q, const double* p, double* value, double* gradient,
                           double* hessian) const = 0;
     virtual bool hasHessian() const { return true; }
+    /// Whether it is known at many nodes together.
+    virtual bool hasNodes() const { return false; }
+    /// Of one that is: g and its gradient, entry k of node i at k * nodes + i, likewise (q, p) in x; `nodes`
+    /// is a multiple of 8.
+    virtual void evaluateNodes(int /*nodes*/, const double* /*x*/, double* /*values*/,
+                               double* /*gradients*/) const {}
     double operator()(const double* q, const double* p) const {
         double value = 0;
         evaluate(q, p, &value, nullptr, nullptr);

@@ -11,9 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/small_product.hpp"
 #include "engine/core/own_buffers.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/parts/node_energies.hpp"
 #include "engine/phase/flow_jacobian.hpp"
 
 namespace extremal {
@@ -63,8 +65,19 @@ void legendreHessian(const void* model, double t, const double* q, const double*
     H.topRows(d) = -slope.bottomRows(d);
 }
 
+/// Of a separable Lagrangian.
+void legendreGradients(const void* model, const double* t, int nodes, const double* q, const double* p,
+                       double* gradients) {
+    const Mechanics<double>& m = mechanicsOf(model);
+    const int half = m.dimension * nodes;
+    m.forces(m.model.get(), t, nodes, q, gradients);
+    std::transform(gradients, gradients + half, gradients, [](double force) { return -force; });
+    for (int k = 0; k < half; ++k) gradients[half + k] = p[k] / m.masses[k / nodes];
+}
+
 struct MonitoredModel {
     PhaseMechanics H;
+    NodeEnergies energies;  ///< empty: not together
     std::shared_ptr<const Monitor> monitor;
     long long id;
 };
@@ -74,8 +87,16 @@ struct MonitoredRoom {
           monitorSlope(slope),
           hessian(Matrix::Zero(slope.size(), slope.size())),
           monitorHessian(hessian) {}
+    /// For so many nodes.
+    void setNodes(int nodes) {
+        if (energies.size() == nodes) return;
+        x = slopes = monitorSlopes = Matrix::Zero(nodes, slope.size());
+        values = energies = Vector::Zero(nodes);
+    }
     Vector slope, monitorSlope;
     Matrix hessian, monitorHessian;
+    Matrix x, slopes, monitorSlopes;  ///< node i, (q, p)
+    Vector values, energies;
 };
 
 const MonitoredModel& monitored(const void* model) { return *static_cast<const MonitoredModel*>(model); }
@@ -99,6 +120,26 @@ void monitoredGradient(const void* model, double, const double* q, const double*
         gradient[1 + k] = g * own.slope(k) + off * own.monitorSlope(k);
         gradient[d + 2 + k] = g * own.slope(d + k) + off * own.monitorSlope(d + k);
     }
+}
+void monitoredGradients(const void* model, const double* t, int nodes, const double* q, const double* p,
+                        double* gradients) {
+    static const auto combine = nodeSums().combine;
+    const MonitoredModel& m = monitored(model);
+    const int d = m.H.dimension;
+    MonitoredRoom& own = monitoredRoom(m);
+    own.setNodes(nodes);
+    double *const places = own.x.data(), *const momenta = places + d * nodes;
+    std::copy_n(q + nodes, d * nodes, places);
+    std::copy_n(p + nodes, d * nodes, momenta);
+    m.monitor->evaluateNodes(nodes, places, own.values.data(), own.monitorSlopes.data());
+    m.H.gradients(m.H.model.get(), t, nodes, places, momenta, own.slopes.data());
+    m.energies.energies(m.energies.model.get(), t, nodes, places, momenta, own.energies.data());
+    own.energies += Eigen::Map<const Vector>(p, nodes);  // off H_0
+    std::fill_n(gradients, nodes, 0.0);
+    std::copy_n(own.values.data(), nodes, gradients + (d + 1) * nodes);
+    for (int k = 0; k < 2 * d; ++k)
+        combine(own.values.data(), own.slopes.col(k).data(), own.energies.data(),
+                own.monitorSlopes.col(k).data(), gradients + (k < d ? 1 + k : 2 + k) * nodes, nodes);
 }
 void monitoredHessian(const void* model, double, const double* q, const double* p, double* hessian) {
     const MonitoredModel& m = monitored(model);
@@ -156,6 +197,10 @@ PhaseMechanics hamiltonianFrom(const System& system) {
     made.energy = legendreEnergy;
     made.gradient = legendreGradient;
     made.hessian = legendreHessian;
+    if (mechanics.isSeparable) {
+        for (int k = 0; k < mechanics.dimension; ++k) made.inverseMasses.push_back(1 / mechanics.masses[k]);
+        if (mechanics.forces) made.gradients = legendreGradients;
+    }
     return made;
 }
 
@@ -190,7 +235,11 @@ MonitoredProblem monitoredProblem(const System& system, const Settings& monitor,
     }
     PhaseMechanics K;
     K.dimension = d + 1;
-    K.model = std::make_shared<const MonitoredModel>(MonitoredModel{H, g, nextModelId()});
+    const NodeEnergies* const energies = system.parts.find<NodeEnergies>();
+    const bool isTogether = energies && H.gradients && g->hasNodes();
+    if (isTogether) K.gradients = monitoredGradients;
+    K.model = std::make_shared<const MonitoredModel>(
+        MonitoredModel{H, isTogether ? *energies : NodeEnergies{}, g, nextModelId()});
     K.energy = monitoredEnergy;
     K.gradient = monitoredGradient;
     K.hessian = monitoredHessian;

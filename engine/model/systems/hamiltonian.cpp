@@ -56,6 +56,7 @@ System makeHamiltonian(const Settings& settings) {
     for (const std::string& name : coordinates.coordinates)
         s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
     setMotion(s, made.mechanics);
+    s.parts.set(made.energies);
     if (auto held = heldBodiesIn(flowOf(made.mechanics))) s.parts.set(*std::move(held));
     for (const int i : made.cyclic) {
         const auto k = static_cast<std::size_t>(i);

@@ -369,6 +369,49 @@ class MonitorTest : public QObject {
         QVERIFY2(QString::fromStdString(read.errors[0].message).contains(message),
                  read.errors[0].message.c_str());
     }
+    /// K at many nodes together and one by one, of a Lagrangian and of a Hamiltonian that is not separable.
+    void gradientsOfManyNodesAreThoseOfEach_data() {
+        QTest::addColumn<QByteArray>("model");
+        QTest::addColumn<QByteArray>("monitor");
+        const char* const lagrangian = R"json({"type": "lagrangian", "coordinates": ["x", "y"],
+            "parameters": {"m": 1.3}, "lagrangian": "(m*x_t^2+y_t^2)/2 + 1/sqrt(x^2+y^2)"})json";
+        const char* const hamiltonian = R"json({"type": "hamiltonian", "coordinates": ["x", "y"],
+            "hamiltonian": "(p_x^2+p_y^2)*(1+x^2/9)/2 - 1/sqrt(x^2+y^2) + x*p_y/5"})json";
+        const char* const typed = R"json({"type": "typed", "monitor": "(x^2+y^2)^(3/4)*(1+p_x^2/7)"})json";
+        const char* const bounded = R"json({"type": "typed", "monitor": "(x^2+y^2)^(3/4)", "max": 0.05})json";
+        QTest::newRow("a Lagrangian") << QByteArray(lagrangian) << QByteArray(typed);
+        QTest::newRow("with a longest step") << QByteArray(lagrangian) << QByteArray(bounded);
+        QTest::newRow("a Hamiltonian") << QByteArray(hamiltonian) << QByteArray(typed);
+    }
+    void gradientsOfManyNodesAreThoseOfEach() {
+        QFETCH(QByteArray, model);
+        QFETCH(QByteArray, monitor);
+        const ReadScene read =
+            readScene(keplerScene(.6, gaussScheme(3, .01, monitor), 10, model.simplified()).toStdString());
+        QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
+        const ResolvedScene& r = *read.resolved;
+        const MonitoredProblem problem =
+            monitoredProblem(*r.system, read.scene.schemes[0].monitor, r.initial, 0.01);
+        const PhaseMechanics& K = problem.system.part<PhaseMechanics>();
+        QVERIFY(K.gradients);
+        constexpr int nodes = 16;
+        const auto width = static_cast<std::size_t>(K.dimension);
+        std::vector<double> t(nodes), q(width * nodes), p(q), together(2 * q.size()), alone(2 * width);
+        const auto at = [](std::size_t k, std::size_t i) { return k * nodes + i; };
+        for (std::size_t i = 0; i < nodes; ++i)
+            for (std::size_t k = 0; k < width; ++k) {
+                q[at(k, i)] = 0.3 + std::cos(static_cast<double>(3 * i + k)) / 9;
+                p[at(k, i)] = 0.2 + std::sin(static_cast<double>(2 * i + 5 * k));
+            }
+        K.gradients(K.model.get(), t.data(), nodes, q.data(), p.data(), together.data());
+        for (std::size_t i = 0; i < nodes; ++i) {
+            std::vector<double> oneQ(width), oneP(width);
+            for (std::size_t k = 0; k < width; ++k) oneQ[k] = q[at(k, i)], oneP[k] = p[at(k, i)];
+            K.gradient(K.model.get(), 0, oneQ.data(), oneP.data(), alone.data());
+            for (std::size_t k = 0; k < 2 * width; ++k)
+                QVERIFY(std::abs(together[at(k, i)] - alone[k]) <= 5e-15 * (1 + std::abs(alone[k])));
+        }
+    }
     void explicitTimeIsRefused() {
         const ReadScene read = readScene(std::string_view(
             R"json({"extremal": 1, "model": {"type": "hamiltonian", "coordinates": ["x"],

@@ -61,12 +61,11 @@ void hessianAt(const void* model, double t, const double* q, const double* p, do
 }
 
 /// Eight nodes at a time.
-void gradientLanes(const void* model, const double* t, int nodes, const double* q, const double* p,
-                   double* gradients) {
-    const PhaseModel& m = modelOf(model);
+void outputLanes(const PhaseModel& m, const Tape& tape, const double* t, int nodes, const double* q,
+                 const double* p, double* outputs) {
     for (int i = 0; i < nodes; i += 8)
         runEight(
-            m.gradient,
+            tape,
             [&](Lanes* r) {
                 for (std::size_t k = 0; k < m.d; ++k) {
                     r[k] = Lanes::load(q + static_cast<int>(k) * nodes + i);
@@ -75,8 +74,16 @@ void gradientLanes(const void* model, const double* t, int nodes, const double* 
                 r[4 * m.d] = Lanes::load(t + i);
             },
             [&](std::size_t k, const Lanes& value) {
-                value.store(gradients + static_cast<int>(k) * nodes + i);
+                value.store(outputs + static_cast<int>(k) * nodes + i);
             });
+}
+void gradientLanes(const void* model, const double* t, int nodes, const double* q, const double* p,
+                   double* gradients) {
+    outputLanes(modelOf(model), modelOf(model).gradient, t, nodes, q, p, gradients);
+}
+void energyLanes(const void* model, const double* t, int nodes, const double* q, const double* p,
+                 double* values) {
+    outputLanes(modelOf(model), modelOf(model).value, t, nodes, q, p, values);
 }
 
 void forceLanes(const void* model, const double* t, int nodes, const double* q, double* f) {
@@ -149,6 +156,7 @@ public:
             m.forces = ForThisMachine<&forceLanes>::call();
         }
         m.model = model;
+        made.energies = {model, ForThisMachine<&energyLanes>::call()};
         for (int i = 0; i < d_; ++i)
             if (graph_.isZero(gradient_[static_cast<std::size_t>(i)])) made.cyclic.push_back(i);
         return made;
