@@ -27,6 +27,9 @@ struct Constraint {
     /// g (count), g_q (count x d) and g_t (count).
     void (*first)(const void*, double t, const double* q, double* g, double* byPlace,
                   double* byTime) = nullptr;
+    /// Where the system offers it (null else): (g, g_q) at many nodes together, count (1 + d) entries, entry
+    /// k of node i at k * nodes + i, likewise q; `nodes` is a multiple of 8.
+    void (*firsts)(const void*, const double* t, int nodes, const double* q, double* firsts) = nullptr;
     /// Adds sum_k lambda_k d2 g_k / dq dq to a d x d matrix.
     void (*addCurvature)(const void*, double t, const double* q, const double* lambda,
                          double* matrix) = nullptr;

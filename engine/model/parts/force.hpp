@@ -27,6 +27,12 @@ struct Force {
     /// F, and its derivatives by q and v: d x 2d, row by row.
     void (*first)(const void*, double t, const double* q, const double* v, double* force,
                   double* derivatives) = nullptr;
+    /// Where the system offers it (null else): F, or its derivatives alone, at many nodes together, entry k
+    /// of node i at k * nodes + i, likewise q and v; `nodes` is a multiple of 8.
+    void (*values)(const void*, const double* t, int nodes, const double* q, const double* v,
+                   double* forces) = nullptr;
+    void (*derivatives)(const void*, const double* t, int nodes, const double* q, const double* v,
+                        double* derivatives) = nullptr;
 
     /// The same by the entries that are not always 0, where the system offers it; null else.
     struct Entries {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/parts/part_formulas.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 struct ForceModel {
     int d = 0;
-    Tape value, first;
+    Tape value, first, derivatives;  ///< derivatives: those of `entries` alone
     struct Entry {
         int i, j;  ///< force i by q_j, or by v_(j - d)
         std::size_t output;
@@ -39,6 +40,23 @@ void firstOfForce(const void* p, double t, const double* q, const double* v, dou
     for (int i = 0; i < m.d; ++i) f[i] = r[placeOf(i)];
     std::fill_n(derivatives, 2 * m.d * m.d, 0.0);
     for (const ForceModel::Entry& e : m.entries) derivatives[e.i * 2 * m.d + e.j] = r[e.output];
+}
+
+void forceAtNodes(const void* p, const double* t, int nodes, const double* q, const double* v, double* f) {
+    const ForceModel& m = forceModel(p);
+    runNodes(m.value, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
+        value.store(f + static_cast<int>(k) * nodes + i);
+    });
+}
+
+void derivativesAtNodes(const void* p, const double* t, int nodes, const double* q, const double* v,
+                        double* derivatives) {
+    const ForceModel& m = forceModel(p);
+    std::fill_n(derivatives, 2 * m.d * m.d * nodes, 0.0);
+    runNodes(m.derivatives, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
+        const ForceModel::Entry& e = m.entries[k];
+        value.store(derivatives + (e.i * 2 * m.d + e.j) * nodes + i);
+    });
 }
 
 void entriesOfForce(const void* p, double t, const double* q, const double* v, double* f, double* first) {
@@ -261,6 +279,7 @@ std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
         }
     model->value = roots.tape(nodes.value);
     model->first = roots.tape(all);
+    model->derivatives = roots.tape({all.begin() + d, all.end()});
     Force made;
     made.isTimeDependent = roots.graph().dependsOn(nodes.value, [d](int symbol) { return symbol == d; });
     made.kinks = kinksOf(settings, formula);
@@ -272,6 +291,8 @@ std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
     made.model = std::move(model);
     made.value = force;
     made.first = firstOfForce;
+    made.values = ForThisMachine<&forceAtNodes>::call();
+    made.derivatives = ForThisMachine<&derivativesAtNodes>::call();
     return made;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/core/settings.hpp"
 #include "engine/model/typed/formula.hpp"
 #include "engine/model/typed/symbolic.hpp"
+#include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/model/typed/tape/tape.hpp"
 #include "engine/model/typed/tape/tape_registers.hpp"
 
@@ -88,6 +89,25 @@ public:
               r[2 * d + 1] = 1;
           }) {}
 };
+
+/// Evaluations of a tape at (q, t, v) of many nodes, eight at a time and in line with their caller; v may be
+/// null. `write(k, value, i)` takes output k of the nodes from i on.
+template <class Write>
+void runNodes(const Tape& tape, int d, const double* t, int nodes, const double* q, const double* v,
+              const Write& write) {
+    for (int i = 0; i < nodes; i += static_cast<int>(Lanes::size))
+        runEight(
+            tape,
+            [&](Lanes* r) {
+                for (int k = 0; k < d; ++k) {
+                    r[k] = Lanes::load(q + k * nodes + i);
+                    r[d + 1 + k] = v ? Lanes::load(v + k * nodes + i) : Lanes(0);
+                }
+                r[d] = Lanes::load(t + i);
+                r[2 * d + 1] = Lanes(1);
+            },
+            [&](std::size_t k, const Lanes& value) { write(k, value, i); });
+}
 
 /// differentiate() with what is wrong as a problem of the scene.
 std::shared_ptr<const SymbolicLagrangian> derivativesOf(const Formula& formula, const std::string& pointer);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
@@ -31,6 +32,7 @@ struct ConstraintModel {
     std::vector<First> first;
     std::vector<Second> entries;
     std::vector<std::size_t> values;  ///< where the outputs of each constraint begin
+    std::vector<int> entryOf;         ///< of (g, g_q), for each output of `value`; -1: g_t
 };
 const ConstraintModel& constraintModel(const void* p) { return *static_cast<const ConstraintModel*>(p); }
 
@@ -43,6 +45,13 @@ void first(const void* p, double t, const double* q, double* g, double* byPlace,
         byTime[k] = r[m.values[placeOf(k)] + 1];
     }
     for (const ConstraintModel::First& e : m.first) byPlace[e.constraint * m.d + e.i] = r[e.output];
+}
+void firstAtNodes(const void* p, const double* t, int nodes, const double* q, double* firsts) {
+    const ConstraintModel& m = constraintModel(p);
+    std::fill_n(firsts, m.count * (1 + m.d) * nodes, 0.0);
+    runNodes(m.value, m.d, t, nodes, q, nullptr, [&](std::size_t output, const Lanes& value, int i) {
+        if (m.entryOf[output] >= 0) value.store(firsts + m.entryOf[output] * nodes + i);
+    });
 }
 void firstEntries(const void* p, double t, const double* q, double* g, double* byPlace, double* byTime) {
     const ConstraintModel& m = constraintModel(p);
@@ -144,6 +153,11 @@ public:
     const std::vector<std::string>& names() const { return names_; }
     bool isTimeDependent() const { return isTimeDependent_; }
     std::shared_ptr<const ConstraintModel> model() {
+        std::vector<int>& entryOf = model_->entryOf;
+        entryOf.assign(values_.size(), -1);
+        for (int k = 0; k < model_->count; ++k) entryOf[model_->values[placeOf(k)]] = k;
+        for (const ConstraintModel::First& e : model_->first)
+            entryOf[e.output] = model_->count + e.constraint * model_->d + e.i;
         model_->value = roots_.tape(values_);
         model_->second = roots_.tape(seconds_);
         return model_;
@@ -180,6 +194,7 @@ std::optional<Constraint> constraintOf(const Settings& settings, const Formula& 
     made.entries = std::move(entries);
     made.model = model;
     made.first = first;
+    made.firsts = ForThisMachine<&firstAtNodes>::call();
     made.addCurvature = addCurvature;
     made.rates = rates;
     return made;
