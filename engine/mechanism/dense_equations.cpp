@@ -1,195 +1,327 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/mechanism/dense_equations.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <vector>
 
-#include "engine/action/element_kernel.hpp"
+#include "engine/mechanism/node_lanes.hpp"
+#include "engine/mechanism/rolling_rows.hpp"
 #include "engine/solve/small_lu.hpp"
 
 namespace extremal {
 namespace {
 
+/// R, A and their derivatives are sums over the nodes of three rules: of h L_q and L_v, of h F, and of the
+/// impulses of the multipliers.
 class DenseEquations final : public MechanismEquations {
+    using Matrix = Eigen::MatrixXd;
     using Rows = Mechanism::Rows;
 
 public:
     DenseEquations(const Mechanism& mechanism, const MechanismCurve& curve)
-        : mechanism_(mechanism),
+        : mechanics_(mechanism.mechanics()),
           constraint_(mechanism.constraint()),
           force_(mechanism.force()),
-          rolling_(mechanism.rolling()),
           curve_(curve),
-          kernel_(mechanism.mechanics(), curve.table, ElementBasis::increments),
           n_(mechanism.constraints()),
-          holonomic_(mechanism.holonomic()) {
+          holonomic_(mechanism.holonomic()),
+          inside_(curve.atLagrangian.rule.c, curve.atLagrangian.at, curve.d),
+          ofInside_(curve.atLagrangian.rule.b, curve.atLagrangian.at),
+          forced_(curve.atForces.rule.c, curve.atForces.at, curve.d),
+          ofForces_(curve.atForces.rule.b, curve.atForces.at),
+          places_(curve.places, {curve.atPlaces, {}}, curve.d),
+          ofImpulses_(ones(), {curve.atPlaces, {}}),
+          ofRolling_(ones(), {curve.atRolling, {}}),
+          lu_(curve.unknowns() * (curve.d + n_)) {
         const int d = curve_.d, m = curve_.unknowns();
-        lu_ = SmallLu<double>(m * (d + n_));
+        if (mechanism.rolling()) rolling_.emplace(*mechanism.rolling(), curve);
         residual_ = Vector::Zero(m * (d + n_));
-        gradient_ = Vector::Zero((m + 1) * d);
-        hessian_ = Eigen::MatrixXd::Zero((m + 1) * d, (m + 1) * d);
-        forces_ = impulse_ = Vector::Zero(d);
-        byState_ = Rows::Zero(d, 2 * d);
-        byPlace_.assign(static_cast<std::size_t>(m + 1), Rows::Zero(n_, d));
-        ofRolling_ = Rows::Zero(n_, d);
-        value_ = byTime_ = Vector::Zero(n_);
+        impulse_ = masses_ = Vector::Zero(d);
+        z_ = Vector::Zero((m + 1) * d);
+        impulses_ = Vector::Zero(m * n_);
+        Y_ = Matrix::Zero(m, d);
+        kicks_ = shifts_ = Matrix::Zero(m + 1, d);
+        gradients_ = inside_.room(2 * d);
+        hessians_ = inside_.room(4 * d * d);
+        gradient_ = Vector::Zero(2 * d);
+        if (force_) {
+            forces_ = forced_.room(d);
+            byState_ = forced_.room(2 * d * d);
+        }
+        firsts_ = places_.room(holonomic_ * (1 + d));
+        multipliers_ = places_.room(holonomic_);
+        reactions_ = places_.room(d);
+        curvatures_ = places_.room(constraint_ ? d * d : 0);
+        rollingReactions_ = Matrix::Zero(m, d);
+        rollingCurvatures_ = Matrix::Zero(m, rolling_ ? d * d : 0);
         curvature_ = Rows::Zero(d, d);
-        motion_ = Vector::Zero(2 * d);
-        const int rolling = n_ - holonomic_;
-        rollingValue_ = rollingByTime_ = Vector::Zero(rolling);
-        rollingByState_.assign(static_cast<std::size_t>(m), Rows::Zero(rolling, 2 * d));
+        byTime_ = Vector::Zero(holonomic_);
+        block_ = Matrix::Zero(m, m);
+        const int most = std::max({inside_.stride(), forced_.stride(), places_.stride()});
+        applied_ = Vector::Zero(most * m);
     }
 
     std::unique_ptr<MechanismEquations> clone() const override {
         return std::make_unique<DenseEquations>(*this);
     }
 
-    /// G by z = (q_0, Y), its derivatives by Y, and the constraints.
     bool evaluate(double t, double h, const Vector& z, const Vector& p, const Vector& impulses) override {
-        const int d = curve_.d, m = curve_.unknowns(), last = (m - 1) * d;
-        if (!kernel_.evaluate(t, h, z, DerivativeOrder::second, derivatives_)) return false;
-        gradient_ = derivatives_.gradient;
-        hessian_ = derivatives_.hessian;
-        if (force_) addForces(t, h, z);
-        if (n_ > 0) addConstraints(t, h, z, impulses);
-        if (rolling_) addRolling(t, h, z);
-        if (!gradient_.allFinite()) return false;
-        residual_.head(last) = gradient_.segment(d, last);
-        residual_.segment(last, d) = p + (gradient_.head(d) - gradient_.tail(d));
-        impulse_ = gradient_.head(d);
-        return residual_.allFinite();
+        const int d = curve_.d, m = curve_.unknowns();
+        h_ = h;
+        z_ = z;
+        impulses_ = impulses;
+        for (int a = 0; a < m; ++a) Y_.row(a) = z.segment((a + 1) * d, d).transpose();
+        kicks_.setZero();
+        shifts_.setZero();
+        addLagrangian(t);
+        if (force_) addForces(t);
+        if (constraint_) addConstraints(t);
+        if (rolling_) addRolling(t);
+        for (int a = 0; a < m; ++a)
+            residual_.segment(a * d, d) = (h * kicks_.row(a) + shifts_.row(a)).transpose();
+        residual_.segment((m - 1) * d, d) += p;
+        impulse_ = (h * kicks_.row(m) + shifts_.row(m)).transpose();
+        return residual_.allFinite() && impulse_.allFinite();
     }
 
     Outcome factorise() override {
-        const int d = curve_.d, m = curve_.unknowns(), last = (m - 1) * d;
-        const auto& H = hessian_;
-        for (int c = 0; c < m * d; ++c) {
-            double* const column = lu_.column(c);
-            for (int r = 0; r < last; ++r) column[r] = H(d + r, d + c);
-            for (int k = 0; k < d; ++k) column[last + k] = H(k, d + c) - H(m * d + k, d + c);
-            const int a = c / d, i = c % d;
-            for (int j = 1; j <= m; ++j) {
-                double* const rows = column + m * d + (j - 1) * n_;
-                for (int k = 0; k < holonomic_; ++k) rows[k] = curve_.atPlaces(j, a) * byPlaceAt(j)(k, i);
-                for (int k = holonomic_; k < n_; ++k) rows[k] = rollingEntry(j - 1, k - holonomic_, a, i);
-            }
+        const int d = curve_.d, m = curve_.unknowns();
+        findSecondDerivatives();
+        for (int c = 0; c < m * d; ++c) std::fill_n(lu_.column(c), m * (d + n_), 0.0);
+        for (int k = 0; k < d; ++k)
+            for (int l = 0; l < d; ++l) addPair(k, l);
+        for (int j = 0; j < m; ++j) {
+            for (int c = 0; c < n_; ++c) std::fill_n(lu_.column(m * d + j * n_ + c), m * (d + n_), 0.0);
+            if (constraint_) setConstraints(j);
+            if (rolling_) setRolling(j);
         }
-        for (int j = 0; j < m; ++j)
-            for (int k = 0; k < n_; ++k) {
-                double* const column = lu_.column(m * d + j * n_ + k);
-                const Eigen::MatrixXd& at = k < holonomic_ ? curve_.atPlaces : curve_.atRolling;
-                for (int a = 0; a < m; ++a) {
-                    const double test = (a == m - 1 ? 1 : 0) + (a == m - 1 ? -1 : 1) * at(j, a);
-                    for (int i = 0; i < d; ++i) column[a * d + i] = test * byPlaceAt(j)(k, i);
-                }
-                for (int r = 0; r < m * n_; ++r) column[m * d + r] = 0;
-            }
         return lu_.factorise();
     }
     void solve(Vector& x) const override { lu_.solve(x.data()); }
     void solveTransposed(Vector& x) const override { lu_.solveTransposed(x.data()); }
+    void reactions(const double* impulses, Vector& to) const override {
+        const int m = curve_.unknowns();
+        to.setZero();
+        for (int j = 0; j < m; ++j, impulses += n_) {
+            for (int c = 0; c < holonomic_; ++c)
+                for (int k = 0; k < curve_.d; ++k) to(k) += firsts_(j, byPlace(c, k)) * impulses[c];
+            if (rolling_)
+                to.noalias() += rolling_->reaction(j).transpose() *
+                                Eigen::Map<const Vector>(impulses + holonomic_, rolling_->count());
+        }
+    }
 
 private:
-    Rows& byPlaceAt(int j) { return byPlace_[static_cast<std::size_t>(j)]; }
-
-    void addForces(double t, double h, const Vector& z) {
-        const MechanismCurve::Nodes& nodes = curve_.atForces;
-        const int d = curve_.d, m = curve_.unknowns();
-        for (int i = 0; i < nodes.nodes(); ++i) {
-            curve_.motionAt(nodes, z, i, h, motion_);
-            force_->first(force_->model.get(), t + nodes.place(i) * h, motion_.data(), motion_.data() + d,
-                          forces_.data(), byState_.data());
-            const double weight = h * nodes.weight(i);
-            for (int a = -1; a < m; ++a) {  // -1: q_0, whose function is 1
-                const double test = weight * (a < 0 ? 1 : nodes.at.value(i, a));
-                gradient_.segment((a + 1) * d, d) += test * forces_;
-                for (int b = 0; b < m; ++b)
-                    hessian_.block((a + 1) * d, (b + 1) * d, d, d) +=
-                        test * (nodes.at.value(i, b) * byState_.leftCols(d) +
-                                nodes.at.slope(i, b) / h * byState_.rightCols(d));
-            }
-        }
+    std::vector<double> ones() const {
+        return std::vector<double>(static_cast<std::size_t>(curve_.unknowns()), 1.0);
     }
 
-    void addConstraints(double start, double h, const Vector& z, const Vector& impulses) {
-        const int d = curve_.d, m = curve_.unknowns();
-        for (int j = 0; j <= m; ++j) {
-            const double t = start + curve_.place(j) * h;
-            curve_.placeAt(z, curve_.atPlaces, j, motion_);
-            mechanism_.conditions(t, motion_.data(), value_, byPlaceAt(j), byTime_);
-            if (j > 0) residual_.segment(m * d + (j - 1) * n_, n_) = value_;
-            if (j == m) break;
-            if (constraint_) addImpulses(*constraint_, {0, holonomic_, j, t}, curve_.atPlaces, impulses);
-            if (!rolling_) continue;
-            double there = t;
-            if (curve_.isRollingAtGauss) {
-                there = start + curve_.rolling.c[static_cast<std::size_t>(j)] * h;
-                curve_.placeAt(z, curve_.atRolling, j, motion_);
-                mechanism_.conditions(there, motion_.data(), value_, ofRolling_, byTime_);
-                byPlaceAt(j).bottomRows(n_ - holonomic_) = ofRolling_.bottomRows(n_ - holonomic_);
-            }
-            addImpulses(*rolling_, {holonomic_, n_ - holonomic_, j, there}, curve_.atRolling, impulses);
-        }
+    void addLagrangian(double t) {
+        const int d = curve_.d, stride = inside_.stride();
+        inside_.moveTo(t, h_, z_.data(), Y_);
+        const auto* const model = mechanics_.model.get();
+        if (mechanics_.gradients)
+            mechanics_.gradients(model, inside_.times(), stride, inside_.q(), inside_.v(), gradients_.data());
+        else
+            inside_.oneByOne(gradients_, [&](double time, const double* q, const double* v, double* to) {
+                mechanics_.gradient(model, time, q, v, to);
+            });
+        ofInside_.addValues(gradients_.data(), stride, kicks_);
+        ofInside_.addSlopes(gradients_.col(d).data(), stride, shifts_);
     }
 
-    /// Rows of the conditions with multipliers at one place, where motion_ is.
-    struct Multipliers {
-        int first, count, node;
-        double t;
-    };
-    template <class Part>
-    void addImpulses(const Part& part, Multipliers of, const Eigen::MatrixXd& at, const Vector& impulses) {
-        const int d = curve_.d, m = curve_.unknowns(), first = of.node * n_ + of.first;
-        forces_.noalias() =
-            byPlaceAt(of.node).middleRows(of.first, of.count).transpose() * impulses.segment(first, of.count);
-        gradient_.head(d) += forces_;
-        if (at.row(of.node).isZero(0)) return;
-        curvature_.setZero();
-        part.addCurvature(part.model.get(), of.t, motion_.data(), impulses.data() + first, curvature_.data());
-        for (int a = -1; a < m; ++a) {
-            const double test = a < 0 ? 1 : at(of.node, a);
-            if (a >= 0) gradient_.segment((a + 1) * d, d) += test * forces_;
-            for (int b = 0; b < m; ++b)
-                hessian_.block((a + 1) * d, (b + 1) * d, d, d) += test * at(of.node, b) * curvature_;
-        }
+    void addForces(double t) {
+        const int stride = forced_.stride();
+        forced_.moveTo(t, h_, z_.data(), Y_);
+        const auto* const model = force_->model.get();
+        if (force_->values)
+            force_->values(model, forced_.times(), stride, forced_.q(), forced_.v(), forces_.data());
+        else
+            forced_.oneByOne(forces_, [&](double time, const double* q, const double* v, double* to) {
+                force_->value(model, time, q, v, to);
+            });
+        ofForces_.addValues(forces_.data(), stride, kicks_);
     }
 
-    /// h r at the Gauss nodes, on the velocity of the curve: rows in the units of places.
-    void addRolling(double start, double h, const Vector& z) {
+    /// Column of g_q in firsts_.
+    int byPlace(int constraint, int i) const { return holonomic_ + constraint * curve_.d + i; }
+
+    void addConstraints(double t) {
+        const int d = curve_.d, m = curve_.unknowns(), stride = places_.stride();
+        places_.moveTo(t, h_, z_.data(), Y_);
+        const auto* const model = constraint_->model.get();
+        if (constraint_->firsts)
+            constraint_->firsts(model, places_.times(), stride, places_.q(), firsts_.data());
+        else
+            places_.oneByOne(firsts_, [&](double time, const double* q, const double*, double* to) {
+                constraint_->first(model, time, q, to, to + holonomic_, byTime_.data());
+            });
+        for (int j = 0; j < m; ++j) {
+            residual_.segment(m * d + j * n_, holonomic_) = firsts_.row(j + 1).head(holonomic_).transpose();
+            multipliers_.row(j) = impulses_.segment(j * n_, holonomic_).transpose();
+        }
+        reactions_.setZero();
+        for (int c = 0; c < holonomic_; ++c)
+            for (int k = 0; k < d; ++k)
+                reactions_.col(k) += multipliers_.col(c).cwiseProduct(firsts_.col(byPlace(c, k)));
+        ofImpulses_.addValues(reactions_.data(), stride, shifts_);
+    }
+
+    void addRolling(double t) {
         const int d = curve_.d, m = curve_.unknowns(), n = n_ - holonomic_;
-        length_ = h;
-        for (int i = 0; i < m; ++i) {
-            curve_.motionAt(curve_.atGauss, z, i, h, motion_);
-            rolling_->first(rolling_->model.get(), start + curve_.atGauss.place(i) * h, motion_.data(),
-                            motion_.data() + d, rollingValue_.data(),
-                            rollingByState_[static_cast<std::size_t>(i)].data(), rollingByTime_.data());
-            residual_.segment(m * d + i * n_ + holonomic_, n) = h * rollingValue_;
+        rolling_->evaluate(t, h_, z_);
+        for (int j = 0; j < m; ++j) {
+            residual_.segment(m * d + j * n_ + holonomic_, n) = rolling_->residual(j);
+            rollingReactions_.row(j).noalias() =
+                impulses_.segment(j * n_ + holonomic_, n).transpose() * rolling_->reaction(j);
         }
-    }
-    double rollingEntry(int node, int condition, int a, int coordinate) const {
-        const Rows& byState = rollingByState_[static_cast<std::size_t>(node)];
-        return length_ * curve_.atGauss.at.value(node, a) * byState(condition, coordinate) +
-               curve_.atGauss.at.slope(node, a) * byState(condition, curve_.d + coordinate);
+        ofRolling_.addValues(rollingReactions_.data(), m, shifts_);
     }
 
-    Mechanism mechanism_;
+    /// At the places of the last evaluation.
+    void findSecondDerivatives() {
+        const int d = curve_.d;
+        const auto* const model = mechanics_.model.get();
+        if (mechanics_.hessians)
+            mechanics_.hessians(model, inside_.times(), inside_.stride(), inside_.q(), inside_.v(),
+                                hessians_.data());
+        else
+            inside_.oneByOne(hessians_, [&](double t, const double* q, const double* v, double* to) {
+                double value = 0;
+                mechanics_.jet(model, t, q, v, &value, gradient_.data(), to);
+            });
+        for (int k = 0; k < d; ++k)
+            masses_(k) = hessians_.col(entry(d + k, d + k)).head(inside_.nodes()).cwiseAbs().maxCoeff();
+        if (force_ && force_->derivatives)
+            force_->derivatives(force_->model.get(), forced_.times(), forced_.stride(), forced_.q(),
+                                forced_.v(), byState_.data());
+        else if (force_)
+            forced_.oneByOne(byState_, [&](double t, const double* q, const double* v, double* to) {
+                force_->first(force_->model.get(), t, q, v, gradient_.data(), to);
+            });
+        for (int j = 1; constraint_ && j < curve_.unknowns(); ++j) {
+            curvature_.setZero();
+            constraint_->addCurvature(constraint_->model.get(), places_.times()[j], places_.placeOf(j),
+                                      impulses_.data() + j * n_, curvature_.data());
+            curvatures_.row(j) = Eigen::Map<const Eigen::RowVectorXd>(curvature_.data(), d * d);
+        }
+        for (int j = 0; rolling_ && j < curve_.unknowns(); ++j) {
+            const Rows& curvature = rolling_->curvature(j, z_, impulses_.data() + j * n_ + holonomic_);
+            rollingCurvatures_.row(j) = Eigen::Map<const Eigen::RowVectorXd>(curvature.data(), d * d);
+        }
+    }
+    int entry(int row, int column) const { return 2 * curve_.d * row + column; }
+
+    /// dR(k) / dY(l), of all functions.
+    void addPair(int k, int l) {
+        const int d = curve_.d, m = curve_.unknowns();
+        const auto hessian = [&](int row, int column) { return hessians_.col(entry(row, column)).data(); };
+        isPresent_ = false;
+        block_.setZero();
+        if (apply(inside_, {hessian(k, l), h_}, {hessian(k, d + l), 1}))
+            ofInside_.addValues(applied_.data(), inside_.stride(), block_);
+        if (apply(inside_, {hessian(d + k, l), 1}, {hessian(d + k, d + l), 1 / h_}))
+            ofInside_.addSlopes(applied_.data(), inside_.stride(), block_);
+        if (force_ &&
+            apply(forced_, {byState_.col(entry(k, l)).data(), h_}, {byState_.col(entry(k, d + l)).data(), 1}))
+            ofForces_.addValues(applied_.data(), forced_.stride(), block_);
+        if (constraint_ && apply(places_, {curvatures_.col(k * d + l).data(), 1}, {nullptr, 0}))
+            ofImpulses_.addValues(applied_.data(), places_.stride(), block_);
+        if (rolling_) addCurvatureOfRolling(k * d + l);
+        if (!isPresent_) return;
+        for (int b = 0; b < m; ++b) {
+            double* const column = lu_.column(b * d + l);
+            for (int a = 0; a < m; ++a) column[a * d + k] = block_(a, b);
+        }
+    }
+    /// A derivative at the nodes, and what it is multiplied by.
+    struct Weighted {
+        const double* at;
+        double weight;
+    };
+    /// applied_(i, b) = byPlace(i) phi_b(i) + byVelocity(i) phi_b'(i); false where it is 0.
+    bool apply(const NodeLanes& nodes, const Weighted& byPlace, const Weighted& byVelocity) {
+        const auto isThere = [&](const Weighted& w) {
+            return w.at && std::any_of(w.at, w.at + nodes.nodes(), [](double x) { return x != 0; });
+        };
+        const bool hasPlace = isThere(byPlace), hasVelocity = isThere(byVelocity);
+        if (!hasPlace && !hasVelocity) return false;
+        const int stride = nodes.stride();
+        for (int b = 0; b < curve_.unknowns(); ++b) {
+            double* const to = applied_.data() + b * stride;
+            std::fill_n(to, stride, 0.0);
+            const auto add = [&](const Weighted& w, const double* function) {
+                for (int i = 0; i < stride; ++i) to[i] += w.weight * w.at[i] * function[i];
+            };
+            if (hasPlace) add(byPlace, nodes.value().col(b).data());
+            if (hasVelocity) add(byVelocity, nodes.slope().col(b).data());
+        }
+        return isPresent_ = true;
+    }
+    void addCurvatureOfRolling(int entry) {
+        const int m = curve_.unknowns();
+        const auto curvature = rollingCurvatures_.col(entry);
+        if (curvature.isZero(0)) return;
+        isPresent_ = true;
+        Eigen::Map<Matrix> applied(applied_.data(), m, m);
+        applied = curvature.asDiagonal() * curve_.atRolling;
+        ofRolling_.addValues(applied_.data(), m, block_);
+    }
+
+    /// Reactions at e_j, and g at e_(j+1).
+    void setConstraints(int j) {
+        const int d = curve_.d, m = curve_.unknowns();
+        for (int c = 0; c < holonomic_; ++c) {
+            double* const column = lu_.column(m * d + j * n_ + c);
+            for (int i = 0; i < d; ++i) {
+                const double reaction = firsts_(j, byPlace(c, i)), rate = firsts_(j + 1, byPlace(c, i));
+                for (int a = 0; a < m; ++a) {
+                    column[a * d + i] = ofImpulses_(a, j) * reaction;
+                    lu_.column(a * d + i)[m * d + j * n_ + c] = curve_.atPlaces(j + 1, a) * rate;
+                }
+            }
+        }
+    }
+    void setRolling(int j) {
+        const int d = curve_.d, m = curve_.unknowns();
+        for (int c = 0; c < rolling_->count(); ++c) {
+            const int row = m * d + j * n_ + holonomic_ + c;
+            double* const column = lu_.column(row);
+            for (int a = 0; a < m; ++a)
+                for (int i = 0; i < d; ++i) {
+                    column[a * d + i] = ofRolling_(a, j) * rolling_->reaction(j)(c, i);
+                    lu_.column(a * d + i)[row] = rolling_->rate(j, c, a, i);
+                }
+        }
+    }
+
+    Mechanics<double> mechanics_;
     std::optional<Constraint> constraint_;
     std::optional<Force> force_;
-    std::optional<Rolling> rolling_;
+    std::optional<RollingRows> rolling_;
     MechanismCurve curve_;
-    ElementKernel<double> kernel_;
-    ElementDerivatives<double> derivatives_;
     int n_, holonomic_;
-    double length_ = 0;  ///< of the step
+    NodeLanes inside_;  ///< the nodes of L
+    NodeTests ofInside_;
+    NodeLanes forced_;
+    NodeTests ofForces_;
+    NodeLanes places_;      ///< e_j
+    NodeTests ofImpulses_;  ///< at e_j, j < m
+    NodeTests ofRolling_;   ///< at r_j
     SmallLu<double> lu_;
-    Vector gradient_;  ///< G by z
-    Eigen::MatrixXd hessian_;
+    double h_ = 0;  ///< of the last evaluation, as z_ and impulses_
+    Vector z_, impulses_;
+    Matrix Y_;               ///< (a, i)
+    Matrix kicks_, shifts_;  ///< (a, i), a = m for the function 1: what is multiplied by h, and what is not
+    Matrix gradients_, hessians_, forces_, byState_;  ///< side by side
+    Matrix firsts_, multipliers_, reactions_, curvatures_;
+    Matrix rollingReactions_, rollingCurvatures_;
+    Matrix block_;
+    Vector applied_;
+    bool isPresent_ = false;  ///< whether anything is in block_
     Rows curvature_;
-    Vector forces_, motion_, value_, byTime_;  ///< motion_: (q, v) of one node
-    Rows byState_;
-    std::vector<Rows> byPlace_;  ///< [g_q; a] at e_j and r_j
-    Rows ofRolling_;             ///< [g_q; a] at r_j
-    Vector rollingValue_, rollingByTime_;
-    std::vector<Rows> rollingByState_;  ///< at the Gauss nodes
+    Vector gradient_, byTime_;  ///< not asked for
 };
 
 }  // namespace

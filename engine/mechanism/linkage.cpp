@@ -78,6 +78,7 @@ std::optional<LinkedParts> LinkedParts::of(const Parts& parts) {
     LinkedParts linked;
     linked.d = mechanics->dimension;
     linked.n = constraint ? constraint->count() : 0;
+    linked.mechanics = *mechanics;
     linked.lagrangian = *lagrangian;
     if (constraint) linked.constraint = *constraint;
     if (force) linked.force = *force;

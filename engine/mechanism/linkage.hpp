@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/model/mechanics.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
 #include "engine/solve/block_lu.hpp"
@@ -22,6 +23,7 @@ namespace extremal {
 /// The parts of a mechanism by their entries.
 struct LinkedParts {
     int d = 0, n = 0;  ///< coordinates and constraints
+    Mechanics<double> mechanics;
     LagrangianEntries lagrangian;
     std::optional<Constraint> constraint;
     std::optional<Force> force;

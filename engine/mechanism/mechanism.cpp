@@ -175,11 +175,6 @@ bool Mechanism::flow(double t, const double* q, const double* p, double* qdot, d
     return true;
 }
 
-void Mechanism::masses(double t, const double* q, const double* v, Vector& to) {
-    state_->evaluate(t, q, v);
-    for (int k = 0; k < dimension(); ++k) to(k) = state_->mass(k);
-}
-
 const Mechanism::Vector& Mechanism::byTime(double t, const double* q) {
     state_->evaluateConstraint(t, q);
     return state_->byTime();

@@ -95,8 +95,6 @@ public:
     bool flow(double t, const double* q, const double* p, double* qdot, double* pdot, double feedback = 0);
     /// L_vv(k, k) where accelerate() was asked last.
     double mass(int k) const { return state_->mass(k); }
-    /// The diagonal of L_vv at a state.
-    void masses(double t, const double* q, const double* v, Vector& to);
     /// g_q^T lambda and g_t at a place.
     void reaction(double t, const double* q, const Vector& lambda, Vector& to);
     const Vector& byTime(double t, const double* q);

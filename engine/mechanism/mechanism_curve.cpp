@@ -40,8 +40,10 @@ MechanismCurve::MechanismCurve(const Table<double>& ofStep, const MechanismRules
         atLagrangian.rule.c.push_back(table.node(i));
         atLagrangian.rule.b.push_back(table.weight(i));
     }
-    atForces.rule = rules.forces ? *rules.forces : atLagrangian.rule;
-    for (Nodes* each : {&atLagrangian, &atGauss, &atForces}) each->at = samples(each->rule.c);
+    atLagrangian.at = {table.value, table.derivative};
+    atForces = atLagrangian;
+    if (rules.forces) atForces = {*rules.forces, samples(rules.forces->c)};
+    atGauss.at = samples(atGauss.rule.c);
 }
 
 MechanismCurve::Samples MechanismCurve::samples(const std::vector<double>& at) const {

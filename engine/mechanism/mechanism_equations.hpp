@@ -27,21 +27,25 @@ public:
     virtual ~MechanismEquations() = default;
     virtual std::unique_ptr<MechanismEquations> clone() const = 0;
 
-    /// Everything at z = (q_0, Y) and the impulses Lambda, in a step of length h from t that begins with the
-    /// momenta p. False where it is not finite.
+    /// (R, C) and A at z = (q_0, Y) and the impulses Lambda, in a step of length h from t that begins with
+    /// the momenta p. False where they are not finite.
     virtual bool evaluate(double t, double h, const Vector& z, const Vector& p, const Vector& impulses) = 0;
-    /// (R, C), and A, the impulse of the step, where evaluate() was asked last.
     const Vector& residual() const { return residual_; }
     const Vector& impulse() const { return impulse_; }
-    /// The matrix there, and its solution in place of a right-hand side.
+    /// Forms the matrix where evaluate() was asked last, and factorises it.
     virtual Outcome factorise() = 0;
+    /// The largest |L_vv(k, k)| of the nodes there.
+    const Vector& masses() const { return masses_; }
+    /// The solution with the last factors in place of a right-hand side.
     virtual void solve(Vector& x) const = 0;
     virtual void solveTransposed(Vector& x) const = 0;
+    /// sum_{j<m} g_q^T Lambda_j, where evaluate() was asked last, of any Lambda.
+    virtual void reactions(const double* impulses, Vector& to) const = 0;
     /// How, where that was a choice.
     virtual std::string about() const { return {}; }
 
 protected:
-    Vector residual_, impulse_;
+    Vector residual_, impulse_, masses_;
 };
 
 }  // namespace extremal

@@ -17,6 +17,7 @@
 #include "engine/mechanism/mechanism_equations.hpp"
 #include "engine/mechanism/said_of_forces.hpp"
 #include "engine/mechanism/step_adjoint.hpp"
+#include "engine/mechanism/step_correction.hpp"
 #include "engine/mechanism/step_variation.hpp"
 #include "engine/mechanism/varied_step.hpp"
 #include "engine/solve/step_continuation.hpp"
@@ -38,15 +39,19 @@ public:
           policy_(policy),
           tolerance_(toleranceOf<double>(policy)),
           h_(step),
+          continues_(curve_.table.extrapolation.size() > 0),
           said_(parts, mechanism_.dimension()),
+          correction_(mechanism_.dimension(), curve_.unknowns(), mechanism_.constraints()),
           adjoint_(mechanism_, curve_) {
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
         Y_ = Vector::Zero(m * d);
         impulses_ = Vector::Zero(m * n);
         residual_ = Vector::Zero(m * (d + n));
         z_ = Vector::Zero((m + 1) * d);
-        p0_ = velocity_ = q1_ = p1_ = carryQ_ = carryP_ = endVelocity_ = masses_ = startMasses_ =
-            reactionScale_ = Vector::Zero(d);
+        p0_ = velocity_ = q1_ = p1_ = carryQ_ = carryP_ = endVelocity_ = keptQ_ = keptP_ = previousMasses_ =
+            Vector::Zero(d);
+        previousY_ = Y_;
+        previousImpulses_ = impulses_;
         forces_ = Vector::Zero(d);
         node_ = gradient_ = Vector::Zero(2 * d);
     }
@@ -56,6 +61,7 @@ public:
 
     void begin(State& state) override {
         state.memory.clear();
+        previousStep_ = 0;
         carryQ_.setZero();
         carryP_.setZero();
     }
@@ -66,21 +72,27 @@ public:
         report_.step = h_;
         start_ = state.t;
         const Eigen::Map<const Vector> q(state.x.data(), d), p(state.x.data() + d, d);
-        if (q != q1_ || p != p1_) {
+        const bool isNext = q == q1_ && p == p1_;
+        if (!isNext) {
             carryQ_.setZero();
             carryP_.setZero();
         }
         z_.head(d) = q;
         p0_ = p;
-        report_.outcome = solve();
+        report_.outcome = solve(isNext && previousStep_ == h_);
         if (report_.outcome != Outcome::converged) return report_;
-        const Vector carryQ = carryQ_, carryP = carryP_;
+        keptQ_ = carryQ_;
+        keptP_ = carryP_;
         if (!finish()) {
-            carryQ_ = carryQ;
-            carryP_ = carryP;
+            carryQ_ = keptQ_;
+            carryP_ = keptP_;
             report_.outcome = Outcome::singular;
             return report_;
         }
+        previousY_ = Y_;
+        previousImpulses_ = impulses_;
+        previousMasses_ = equations_->masses();
+        previousStep_ = h_;
         Eigen::Map<Vector>(state.x.data(), d) = q1_;
         Eigen::Map<Vector>(state.x.data() + d, d) = p1_;
         state.t = until;
@@ -126,6 +138,7 @@ public:
         using Matrix = Eigen::MatrixXd;
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
         const Eigen::Index columns = W.cols();
+        if (!haveFactorsAtSolution()) return false;
         if (!variation_) variation_.emplace(mechanism_, curve_);
         Matrix z = Matrix::Zero((m + 1) * d, columns), impulses = Matrix::Zero(m * n, columns);
         z.topRows(d) = W.topRows(d);
@@ -163,7 +176,7 @@ public:
     bool pullBack(std::span<double> W, NodePull& pull) override {
         const auto rows = static_cast<Eigen::Index>(tangentSize());
         const Eigen::Map<Eigen::MatrixXd> columns(W.data(), rows, static_cast<Eigen::Index>(W.size()) / rows);
-        return (!isProjected() || transposeProjection(columns)) &&
+        return haveFactorsAtSolution() && (!isProjected() || transposeProjection(columns)) &&
                adjoint_.apply({start_, h_, z_, impulses_}, *equations_, pull, columns);
     }
 
@@ -195,11 +208,16 @@ public:
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<MechanismStep>(*this); }
     bool checkpoint(Archive& archive) override {
-        archive(carryQ_, carryP_, q1_, p1_);
+        archive(carryQ_, carryP_, q1_, p1_, previousY_, previousImpulses_, previousMasses_, previousStep_,
+                ladder_);
         return true;
     }
 
 private:
+    /// A root this far from its starting value, against the increments of the step, may be another one than
+    /// that of the motion.
+    static constexpr double far = 0.25;
+
     int dimension() const { return mechanism_.dimension(); }
     int constraints() const { return mechanism_.constraints(); }
     /// Whether p at the end is moved onto the conditions.
@@ -236,10 +254,16 @@ private:
         std::copy_n(gradient_.data() + d, d, x.data() + d);
     }
 
-    /// Newton's method from what is known at the start, and a second opinion where its root is far from it.
-    Outcome solve() {
-        constexpr double far = 0.25;
-        reactionScale_.setZero();
+    /// Newton's method from the last curve, or else from what is known at the start, and a second opinion
+    /// where its root is far from that.
+    Outcome solve(bool hasPrevious) {
+        correction_.begin();
+        if (continues_ && ladder_.begin(hasPrevious) == StartingValue::extrapolated && extrapolate()) {
+            const Outcome outcome = newton(h_, far);
+            if (outcome == Outcome::stopped || (outcome == Outcome::converged && nearness_ <= far))
+                return outcome;
+            ladder_.below(StartingValue::extrapolated, false);
+        }
         Outcome outcome = startFresh(h_) ? newton(h_) : Outcome::singular;
         if (outcome == Outcome::stopped) return outcome;
         if (outcome == Outcome::converged && nearness_ <= far) return outcome;
@@ -270,6 +294,23 @@ private:
         }
     }
 
+    /// The last curve goes on; what acts on it is taken to be what has acted. False where its increments
+    /// would be others than the last ones, as in front of a turning point: a root near such a curve may be
+    /// any.
+    bool extrapolate() {
+        const auto& onward = curve_.table.extrapolation;
+        const int d = dimension(), m = curve_.unknowns();
+        for (int a = 0; a < m; ++a) {
+            auto Y = Y_.segment(a * d, d);
+            Y.setZero();
+            for (int b = 0; b < m; ++b) Y += onward(a, b) * previousY_.segment(b * d, d);
+        }
+        impulses_ = previousImpulses_;
+        const auto last = previousY_.tail(d).array(), next = Y_.tail(d).array();
+        const auto masses = previousMasses_.array();
+        return (masses * (next - last).square()).sum() <= far * far * (masses * last.square()).sum();
+    }
+
     bool startFresh(double h) {
         const int d = dimension(), m = curve_.unknowns();
         const auto& L = mechanism_.mechanics();
@@ -279,7 +320,6 @@ private:
         ++report_.cost.linearSolves;
         if (!mechanism_.accelerate(start_, z_.data(), velocity_.data(), acceleration_, multipliers_))
             return false;
-        for (int k = 0; k < d; ++k) startMasses_(k) = mechanism_.mass(k);
         for (int a = 0; a < m; ++a) {
             auto Y = Y_.segment(a * d, d);
             Y.setZero();
@@ -292,6 +332,12 @@ private:
         return true;
     }
 
+    Outcome factorise() {
+        report_.cost.evaluations += curve_.table.nodes();
+        ++report_.cost.linearSolves;
+        return equations_->factorise();
+    }
+
     bool evaluate(double h) {
         const int d = dimension(), m = curve_.unknowns();
         z_.tail(m * d) = Y_;
@@ -299,98 +345,50 @@ private:
         return equations_->evaluate(start_, h, z_, p0_, impulses_);
     }
 
-    /// The correction against the increments, all coordinates together: one that turns back has increments
-    /// of almost nothing. Where reactions hold a body at rest, what is left of its increments is their
-    /// rounding.
-    double changeInMassMetric() const {
-        double change = 0;
-        for (int k = 0; k < dimension(); ++k)
-            for (int a = 0; a < curve_.unknowns(); ++a)
-                change = std::max(
-                    change, std::sqrt(std::abs(startMasses_(k))) * std::abs(residual_(a * dimension() + k)));
-        return change;
-    }
-    double sizeInMassMetric() {
-        const double roundOff = std::numeric_limits<double>::epsilon(), change = changeInMassMetric();
-        double increments = 0;
-        for (int k = 0; k < dimension(); ++k) {
-            const double root = std::sqrt(std::abs(startMasses_(k)));
-            for (int a = 0; a < curve_.unknowns(); ++a)
-                increments = std::max(increments, root * std::abs(Y_(a * dimension() + k)));
-            increments = std::max(increments, 100 * roundOff * root * std::abs(z_(k)));
-        }
-        if (constraints() > 0 && change > increments / 4) {
-            findReactionScales();
-            for (int k = 0; k < dimension(); ++k)
-                increments = std::max(
-                    increments, 100 * roundOff * std::sqrt(std::abs(startMasses_(k))) * reactionScale_(k));
-        }
-        return change > 0 ? change / increments : 0;
+    /// The factors are of the place where R was evaluated last, which is the solution.
+    bool haveFactorsAtSolution() {
+        if (!areFactorsHere_) areFactorsHere_ = equations_->factorise() == Outcome::converged;
+        return areFactorsHere_;
     }
 
-    /// What reactions keep coordinates from in a step: of a body that they hold at rest in the origin it is
-    /// the one size that rounding can be told by.
-    void findReactionScales() {
-        mechanism_.reaction(start_, z_.data(), multipliers_, reactionScale_);
-        for (int k = 0; k < dimension(); ++k)
-            reactionScale_(k) =
-                startMasses_(k) != 0 ? h_ * h_ * std::abs(reactionScale_(k) / startMasses_(k)) : 0;
-    }
-
-    CoordinateCorrection<double> correctionOf(int k, double h) const {
-        const int d = dimension();
-        CoordinateCorrection<double> c{0, 0, std::max(std::abs(z_(k)), reactionScale_(k)), masses_(k),
-                                       h * p0_(k)};
-        for (int a = 0; a < curve_.unknowns(); ++a) {
-            c.change = std::max(c.change, std::abs(residual_(a * d + k)));
-            c.increments = std::max(c.increments, std::abs(Y_(a * d + k)));
-        }
-        return c;
-    }
-
-    void findMasses(double h) {
-        velocity_ = Y_.tail(dimension()) / h;
-        mechanism_.masses(start_, z_.data(), velocity_.data(), masses_);
-    }
-
-    Outcome newton(double h) {
+    /// Newton's method, with factors that are kept while corrections shrink well. Given up at once where the
+    /// first correction shows the root to be farther away than `farthest`.
+    Outcome newton(double h, double farthest = std::numeric_limits<double>::infinity()) {
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
-        const auto limits = NewtonLimits<double>::elementStep(tolerance_);
-        NewtonPolicy<double> policy(limits);
+        NewtonPolicy<double> policy(NewtonLimits<double>::mechanismStep(tolerance_));
         double firstChange = 0;
+        bool needsFactors = true;
         for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
             if (stop().stop_requested()) return Outcome::stopped;
             if (!evaluate(h)) return Outcome::notFinite;
-            constexpr int usual = 4;
-            if (iteration == usual && constraints() > 0) findReactionScales();
-            if (const Outcome factors = equations_->factorise(); factors != Outcome::converged)
-                return factors;
+            areFactorsHere_ = needsFactors;
+            if (needsFactors) {
+                if (const Outcome factors = factorise(); factors != Outcome::converged) return factors;
+                policy.jacobianIsNew();
+            }
             residual_ = equations_->residual();
             equations_->solve(residual_);
-            report_.cost.linearSolves += 2;
+            ++report_.cost.linearSolves;
             ++report_.cost.iterations;
-            double size = 0;
-            for (int k = 0; k < d; ++k) {
-                const auto c = correctionOf(k, h);
-                size = std::max(size, relativeCorrection(c.change, c.increments, c.value));
-            }
-            report_.residual = size;
+            correction_.take(*equations_, {h, z_, p0_, impulses_, residual_});
+            constexpr int usual = 4;
+            if (iteration == usual) correction_.knowReactions();
+            report_.residual = correction_.relative();
             // Of equations that are nearly linear on the way there is one root, however far the start was
             // from it.
             if (iteration <= 1) {
                 constexpr double linear = 0.02;
-                const double near = sizeInMassMetric(), change = changeInMassMetric();
+                const double near = correction_.inMassMetric(), change = correction_.changeInMassMetric();
                 if (iteration == 0 || change <= linear * firstChange) nearness_ = near;
                 if (iteration == 0) firstChange = change;
+                if (iteration == 0 && nearness_ > farthest) return Outcome::diverged;
             }
-            const auto end = endOf(policy.judge(size, [&] {
-                findMasses(h);
-                return measureCorrection<double>(d, [&](int k) { return correctionOf(k, h); });
-            }));
-            policy.jacobianIsNew();
-            if (end) return *end;
+            const NewtonVerdict verdict =
+                policy.judge(report_.residual, [this] { return correction_.apart(); });
+            if (const auto end = endOf(verdict)) return *end;
             Y_ -= residual_.head(m * d);
             impulses_ -= residual_.tail(m * n);
+            needsFactors = verdict == NewtonVerdict::slow;
         }
         return Outcome::diverged;
     }
@@ -468,12 +466,18 @@ private:
     Vector Y_, impulses_, residual_;         ///< impulses_: Lambda_j, j < m
     Vector z_;                               ///< (q_0, Y)
     Vector p0_, q1_, p1_, carryQ_, carryP_;  ///< carries: lost to rounding in q_1 and p_1
-    Vector velocity_, acceleration_, multipliers_, endVelocity_, kappa_, masses_, startMasses_,
-        reactionScale_;
+    Vector keptQ_, keptP_;                   ///< the carries before the step
+    Vector velocity_, acceleration_, multipliers_, endVelocity_, kappa_;
+    Vector previousY_, previousImpulses_, previousMasses_;  ///< of the last step
+    double previousStep_ = 0;                               ///< its length; 0: there was none
+    bool continues_;  ///< whether the curve of a step goes on behind its end
+    StartingLadder ladder_;
+    bool areFactorsHere_ = false;  ///< at the place of the last evaluation
     Vector forces_;
     mutable Vector node_, gradient_;  ///< of one node
     std::optional<HessianPull> pull_;
     SaidOfForces said_;
+    StepCorrection correction_;
     StepAdjoint adjoint_;
     mutable std::optional<Mechanism> measured_;
     std::optional<StepVariation> variation_;

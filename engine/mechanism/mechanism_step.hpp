@@ -26,9 +26,12 @@
 /// order 2 m with both ends takes Lobatto nodes (Jay 1996; Wenger, Ober-Bloebaum, Leyendecker 2017). Forces
 /// act in the variation (d'Alembert): with them the step is not symplectic, momenta and symmetry stay.
 ///
-/// Newton's method starts from q_0 + t v_0 + t^2 a_0 / 2, lambda of the state. A root that was not near this
-/// start may be another assembly of the mechanism: it is accepted if it is the one that short steps lead to
-/// (solve/step_continuation.hpp). What q and p lose to rounding is carried on.
+/// Newton's method starts from the curve of the last step, extrapolated, and its impulses. Where the
+/// increments would be others than the last ones, or the root is not near, it starts from
+/// q_0 + t v_0 + t^2 a_0 / 2, lambda of the state. A root that was not near this start either may be another
+/// assembly of the mechanism: it is accepted if it is the one that short steps lead to
+/// (solve/step_continuation.hpp). The matrix is that of the start for as long as corrections shrink well; a
+/// tangent map has its own, at the solution. What q and p lose to rounding is carried on.
 #pragma once
 
 #include <functional>

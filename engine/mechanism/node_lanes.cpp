@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/mechanism/node_lanes.hpp"
+
+#include <algorithm>
+
+#include "engine/core/algebra/lanes.hpp"
+
+namespace extremal {
+namespace {
+
+Eigen::Index inWholeLanes(Eigen::Index count) {
+    constexpr auto size = static_cast<Eigen::Index>(Lanes::size);
+    return (count + size - 1) / size * size;
+}
+
+}  // namespace
+
+NodeLanes::NodeLanes(const std::vector<double>& places, const MechanismCurve::Samples& at, int dimension)
+    : nodes_(static_cast<int>(places.size())) {
+    const Eigen::Index rows = inWholeLanes(nodes_);
+    places_.resize(rows);
+    value_.resize(rows, at.value.cols());
+    slope_.resize(rows, at.slope.cols());
+    for (Eigen::Index i = 0; i < rows; ++i) {
+        const Eigen::Index node = std::min<Eigen::Index>(i, nodes_ - 1);
+        places_(i) = places[static_cast<std::size_t>(node)];
+        value_.row(i) = at.value.row(node);
+        if (slope_.cols() > 0) slope_.row(i) = at.slope.row(node);
+    }
+    times_ = places_;
+    q_ = v_ = Matrix::Zero(rows, dimension);
+    motion_ = Vector::Zero(2 * dimension);
+}
+
+void NodeLanes::moveTo(double t, double h, const double* q0, const Matrix& Y) {
+    const auto d = static_cast<int>(q_.cols()), m = static_cast<int>(Y.rows());
+    times_ = h * places_;
+    times_.array() += t;
+    for (int k = 0; k < d; ++k) q_.col(k).setConstant(q0[k]);
+    sums_.product({value_.data(), stride(), Y.data(), m, q_.data(), stride(), stride(), d, m});
+    if (slope_.cols() == 0) return;
+    v_.setZero();
+    sums_.product({slope_.data(), stride(), Y.data(), m, v_.data(), stride(), stride(), d, m});
+    v_ /= h;
+}
+
+NodeTests::NodeTests(const std::vector<double>& weights, const MechanismCurve::Samples& at) {
+    const Eigen::Index m = at.value.cols(), rows = inWholeLanes(m + 1);
+    value_ = slope_ = Matrix::Zero(rows, static_cast<Eigen::Index>(weights.size()));
+    for (Eigen::Index i = 0; i < value_.cols(); ++i) {
+        const double weight = weights[static_cast<std::size_t>(i)];
+        value_.col(i).head(m) = weight * at.value.row(i).transpose();
+        value_(m - 1, i) = weight * (1 - at.value(i, m - 1));
+        value_(m, i) = weight;
+        if (at.slope.cols() == 0) continue;
+        slope_.col(i).head(m) = weight * at.slope.row(i).transpose();
+        slope_(m - 1, i) *= -1;
+    }
+}
+
+void NodeTests::add(const Matrix& tests, const double* data, int stride, Matrix& to) const {
+    const auto rows = static_cast<int>(to.rows());
+    sums_.product({tests.data(), static_cast<int>(tests.rows()), data, stride, to.data(), rows, rows,
+                   static_cast<int>(to.cols()), static_cast<int>(tests.cols())});
+}
+
+}  // namespace extremal
