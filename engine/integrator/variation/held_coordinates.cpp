@@ -172,11 +172,12 @@ Mechanics<double> HeldCoordinates::mechanics() const {
 
 std::optional<Force> HeldCoordinates::force() const {
     if (!model_->force) return {};
-    Force f = *model_->force;
+    Force f;  // what it offers besides, many nodes or entries, is that of the whole model
     f.model = model_;
+    f.isTimeDependent = model_->force->isTimeDependent;
+    f.kinks = model_->force->kinks;
     f.value = OfHeld::valueOfForce;
     f.first = OfHeld::firstOfForce;
-    f.entries = {};
     return f;
 }
 
