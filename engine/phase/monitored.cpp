@@ -236,7 +236,9 @@ MonitoredProblem monitoredProblem(const System& system, const Settings& monitor,
     PhaseMechanics K;
     K.dimension = d + 1;
     const NodeEnergies* const energies = system.parts.find<NodeEnergies>();
-    const bool isTogether = energies && H.gradients && g->hasNodes();
+    const auto* const own = system.parts.find<PhaseMechanics>();
+    const bool isOfSystem = energies && energies->of == (own ? own->model : system.mechanics().model);
+    const bool isTogether = isOfSystem && H.gradients && g->hasNodes();
     if (isTogether) K.gradients = monitoredGradients;
     K.model = std::make_shared<const MonitoredModel>(
         MonitoredModel{H, isTogether ? *energies : NodeEnergies{}, g, nextModelId()});

@@ -41,7 +41,7 @@ void energiesOfNodes(const void* model, const double* t, int nodes, const double
 std::optional<NodeEnergies> nodeEnergiesOf(const Mechanics<double>& mechanics) {
     const Tape* const value = valueTapeOf(mechanics);
     if (!value || !mechanics.isSeparable) return {};
-    return NodeEnergies{std::make_shared<const EnergyModel>(EnergyModel{mechanics, *value}),
+    return NodeEnergies{mechanics.model, std::make_shared<const EnergyModel>(EnergyModel{mechanics, *value}),
                         ForThisMachine<&energiesOfNodes>::call()};
 }
 

@@ -156,7 +156,7 @@ public:
             m.forces = ForThisMachine<&forceLanes>::call();
         }
         m.model = model;
-        made.energies = {model, ForThisMachine<&energyLanes>::call()};
+        made.energies = {model, model, ForThisMachine<&energyLanes>::call()};
         for (int i = 0; i < d_; ++i)
             if (graph_.isZero(gradient_[static_cast<std::size_t>(i)])) made.cyclic.push_back(i);
         return made;
