@@ -234,8 +234,10 @@ private:
     /// From newK and newF to K and F.
     Outcome iterate() {
         using Verdict = FixedPointPolicy<double>::Verdict;
-        constexpr int most = 200, worthTogether = 60, worthOneByOne = 21;  // sweeps
-        FixedPointPolicy<double> policy(tolerance_, lanes_ ? worthTogether : worthOneByOne);
+        // Sweeps. A matrix of few unknowns is cheap, whatever a sweep costs.
+        constexpr int most = 200, worthTogether = 60, worthElse = 21, fewUnknowns = 16;
+        const bool isMatrixDear = lanes_ && cell_.nodes() * d() > fewUnknowns;
+        FixedPointPolicy<double> policy(tolerance_, isMatrixDear ? worthTogether : worthElse);
         if (lanes_) lanes_->start(newK_, newF_);
         for (int k = 0; k < most; ++k) {
             if (stop().stop_requested()) return Outcome::stopped;

@@ -207,7 +207,8 @@ private slots:
                 evaluations += report.cost.evaluations;
             }
             qInfo("%d steps: t = %.17g, %lld evaluations", steps, state.t, evaluations);
-            return Ending{evaluations < 60LL * steps ? Outcome::converged : Outcome::stepBudget, state};
+            // With a matrix that is kept, 11 to 63 of them a step.
+            return Ending{evaluations < 100LL * steps ? Outcome::converged : Outcome::stepBudget, state};
         };
         const Ending coarse = end(100), fine = end(400), exact = end(2000);
         for (const Ending* each : {&coarse, &fine, &exact}) {
