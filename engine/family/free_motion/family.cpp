@@ -18,8 +18,8 @@
 #include "engine/family/fourier_space.hpp"
 #include "engine/family/free_motion/free_body_motion.hpp"
 #include "engine/family/free_motion/kepler_motion.hpp"
-#include "engine/family/parts/conditions.hpp"
 #include "engine/family/modal_splitting.hpp"
+#include "engine/family/parts/conditions.hpp"
 #include "engine/family/parts/described_on_system.hpp"
 #include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/step_tableau.hpp"
@@ -40,6 +40,7 @@ struct NamedSplitting {
     const char* shortName;
     const char* knownAs;
     Splitting (*make)();
+    bool isInGrid = true;  ///< offered side by side with others
 };
 constexpr std::array<NamedSplitting, 7> freeKnots{
     {{"strang", "F2", "Strang splitting", strang},
@@ -51,37 +52,38 @@ constexpr std::array<NamedSplitting, 7> freeKnots{
      {"srkn-14a", "F6a", "Blanes-Moan SRKN 14a", srkn14a}}};
 constexpr std::array<NamedSplitting, 11> keplerKnots{
     {{"strang", "K2", "Wisdom-Holman", strang},
-     {"lobatto-3", "K2l", "Laskar-Robutel SBAB2", [] { return lobattoKicks(3); }},
+     {"lobatto-3", "K2l", "Laskar-Robutel SBAB2", [] { return lobattoKicks(3); }, false},
      {"lobatto-4", "K2m", "Laskar-Robutel SBAB3", [] { return lobattoKicks(4); }},
-     {"gauss-2", "K2g", "Laskar-Robutel SABA2", [] { return gaussKicks(2); }},
-     {"gauss-3", "K2h", "Laskar-Robutel SABA3", [] { return gaussKicks(3); }},
+     {"gauss-2", "K2g", "Laskar-Robutel SABA2", [] { return gaussKicks(2); }, false},
+     {"gauss-3", "K2h", "Laskar-Robutel SABA3", [] { return gaussKicks(3); }, false},
      {"aba-10-4", "K4b", "Blanes et al. ABA(10,4)", aba104},
      {"aba-8-6-4", "K4c", "Blanes et al. ABA(8,6,4)", aba864},
      {"aba-10-6-4", "K4", "Blanes et al. ABA(10,6,4)", aba1064},
-     {"srkn-6b", "K4d", "Blanes-Moan SRKN 6b", srkn6b},
+     {"srkn-6b", "K4d", "Blanes-Moan SRKN 6b", srkn6b, false},
      {"srkn-11b", "K6b", "Blanes-Moan SRKN 11b", srkn11b},
      {"srkn-14a", "K6", "Blanes-Moan SRKN 14a", srkn14a}}};
 
 bool isOfArcs(const Settings& space) { return space.type == "kepler-arcs"; }
 
-std::span<const NamedSplitting> knotsOf(bool isOfArcs) {
-    if (isOfArcs) return keplerKnots;
+std::span<const NamedSplitting> knotsOf(const Settings& space) {
+    if (isOfArcs(space)) return keplerKnots;
     return freeKnots;
 }
 const NamedSplitting& splittingOf(const Settings& space) {
     const std::string id = space.text("knots");
-    const auto all = knotsOf(isOfArcs(space));
+    const auto all = knotsOf(space);
     return *std::find_if(all.begin(), all.end(), [&](const NamedSplitting& each) { return id == each.id; });
 }
 
 constexpr const char* needed = "a kinetic energy whose motion is known, and a potential";
 constexpr const char* neededOfArcs =
-    "bodies that one of them holds by a pull like 1/r^2, ten times as heavy as all others, or the origin";
+    "two or more bodies that only attract, like 1/r^2, and that the origin holds or one of them that is ten "
+    "times as heavy as all others";
 
 SpaceEntry spaceOf(const char* id, const char* title, const char* description, const char* knots,
                    const char* needs) {
     std::vector<std::string> ids;
-    for (const NamedSplitting& each : knotsOf(isOfArcs({id, {}, {}}))) ids.emplace_back(each.id);
+    for (const NamedSplitting& each : knotsOf({id, {}, {}})) ids.emplace_back(each.id);
     SpaceEntry e;
     e.item = {id, title, description, {choiceField("knots", "knots", ids, knots)}, {}, needs};
     return e;
@@ -189,14 +191,10 @@ std::unique_ptr<Integrator> makeOn(const System& system, const Discretization& d
     return makePartitioned(flowOf(system), step, partitionedStages(splitting, true));
 }
 
-ChoiceGrid choices(const System& system) {
-    ChoiceGrid grid;
-    const bool isOfArcs = system.parts.find<HeldBodies>();
-    const std::string space = isOfArcs ? "kepler-arcs" : "free-motion",
-                      title = isOfArcs ? "Kepler arcs" : "free motion";
-    grid.subtitle = title + " between kicks";
+void addRow(ChoiceGrid& grid, const std::string& space, const std::string& title,
+            std::span<const NamedSplitting> knots) {
     grid.rows.push_back({title, {}});
-    for (const NamedSplitting& each : knotsOf(isOfArcs)) {
+    for (const NamedSplitting& each : knots) {
         ChoiceGrid::Cell cell;
         cell.discretization.space = {space, {{"knots", each.id}}, {}};
         cell.discretization.quadrature = {"auto", {}, {}};
@@ -205,6 +203,19 @@ ChoiceGrid choices(const System& system) {
         cell.title = title + ", " + each.id;
         grid.cells.push_back(std::move(cell));
     }
+}
+
+/// Of arcs as many as of free motions, those that cost least for their error.
+ChoiceGrid choices(const System& system) {
+    ChoiceGrid grid;
+    grid.subtitle = "free motion between kicks";
+    addRow(grid, "free-motion", "free motion", freeKnots);
+    if (!system.parts.find<HeldBodies>()) return grid;
+    grid.subtitle = "free motion and Kepler arcs between kicks";
+    std::vector<NamedSplitting> arcs;
+    for (const NamedSplitting& each : keplerKnots)
+        if (each.isInGrid) arcs.push_back(each);
+    addRow(grid, "kepler-arcs", "Kepler arcs", arcs);
     return grid;
 }
 

@@ -84,11 +84,9 @@ public:
     /// -(dU/dr_i) / m'_i and how the centre of mass is accelerated, from the force -dV/dq on all bodies at
     /// the present places.
     std::array<T, 3> accelerations(const T* force, Columns& a) const {
-        using std::sqrt;
         const std::array<T, 3> ofCentre = seenFromInside(force, true, a);
         for (std::size_t i = 0; i < size_; ++i) {
-            const T square = x_[0][i] * x_[0][i] + x_[1][i] * x_[1][i] + x_[2][i] * x_[2][i],
-                    w = T(mu_[i]) / (square * sqrt(square));
+            const T w = pull(i);
             for (std::size_t k = 0; k < 3; ++k) a[k][i] += w * x_[k][i];
         }
         return ofCentre;
@@ -100,14 +98,16 @@ public:
         }
     }
     /// The accelerations of the Kepler motions by themselves.
-    T fall(std::size_t k, std::size_t i) const {
-        using std::sqrt;
-        const T square = x_[0][i] * x_[0][i] + x_[1][i] * x_[1][i] + x_[2][i] * x_[2][i];
-        return T(-mu_[i]) * x_[k][i] / (square * sqrt(square));
-    }
+    T fall(std::size_t k, std::size_t i) const { return -(pull(i) * x_[k][i]); }
 
 private:
     std::size_t padded() const { return (size_ + 7) / 8 * 8; }
+    /// mu / |r_i|^3.
+    T pull(std::size_t i) const {
+        using std::sqrt;
+        const T square = x_[0][i] * x_[0][i] + x_[1][i] * x_[1][i] + x_[2][i] * x_[2][i];
+        return T(mu_[i]) / (square * sqrt(square));
+    }
 
     /// Jacobi coordinates of places, or of momenta and forces over their masses; returns those of the centre
     /// of mass. Divides: momenta that are multiplied by a rounded inverse once a step grow with the steps.

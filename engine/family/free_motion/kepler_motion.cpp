@@ -69,20 +69,22 @@ private:
     void step(double t) override {
         motion_.read(q1_.data(), p1_.data());
         place_ = q1_;
+        // The last kick of a step and the first one of the next are at one place.
+        bool isForceFresh = at_ == place_ && (!mechanics_.isTimeDependent || atTime_ == t);
         double passed = 0;
         for (const SplittingStage& stage : splitting_.stages) {
             if (!stage.isKick) {
                 passed += stage.fraction;
                 motion_.move(stage.fraction * h());
                 motion_.writePlaces(place_.data());
+                isForceFresh = false;
                 continue;
             }
-            // The last kick of a step and the first one of the next are at one place.
-            const double now = t + passed * h();
-            if (at_ != place_ || (mechanics_.isTimeDependent && atTime_ != now)) {
-                forceAt(now, place_, force_);
+            if (!isForceFresh) {
+                atTime_ = t + passed * h();
+                forceAt(atTime_, place_, force_);
                 at_ = place_;
-                atTime_ = now;
+                isForceFresh = true;
                 ++report_.cost.evaluations;
             }
             const auto ofCentre = motion_.accelerations(force_.data(), kick_);
