@@ -3,6 +3,7 @@
 
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes.hpp"
+#include "engine/core/algebra/largest_lane.hpp"
 
 namespace extremal {
 namespace {
@@ -10,15 +11,6 @@ namespace {
 /// Column j of G times F_j, nodes i..i+7.
 Lanes term(const Sweep<double>& s, const double* F, int i, int j) {
     return Lanes::load(s.G + j * s.stride + i) * Lanes(F[j]);
-}
-
-/// One instruction, which a NaN in a escapes.
-double larger(double a, double b) { return b > a ? b : a; }
-/// Of eight; uses the array up.
-double largest(double* v) {
-    for (int l = 0; l < 4; ++l) v[l] = larger(v[l], v[l + 4]);
-    for (int l = 0; l < 2; ++l) v[l] = larger(v[l], v[l + 2]);
-    return larger(v[0], v[1]);
 }
 
 /// Sums are written out and go through memory every eight terms: the compiler keeps straight lines of Lanes
@@ -49,8 +41,8 @@ void sweepLanes(const Sweep<double>& s) {
                 const auto magnitude = [](double v) { return __builtin_fabs(v); };
                 (z - Lanes::load(Z)).map(magnitude).store(moved);
                 z.map(magnitude).store(far);
-                change = larger(change, largest(moved));
-                scale = larger(scale, largest(far));
+                change = larger(change, largestLane(moved));
+                scale = larger(scale, largestLane(far));
             }
             z.store(Z);
             (Lanes(s.q[k]) + z).store(s.Q + k * s.stride + i);

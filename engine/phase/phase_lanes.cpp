@@ -7,6 +7,7 @@
 
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes.hpp"
+#include "engine/core/algebra/largest_lane.hpp"
 #include "engine/solve/correction_size.hpp"
 
 namespace extremal {
@@ -18,13 +19,7 @@ struct Changes {
     double *moved, *size;  ///< by column: the largest difference, and the largest of both
 };
 
-/// One instruction, which a NaN in a escapes.
-double largerOf(double a, double b) { return b > a ? b : a; }
-double largestOfEight(Lanes v) {
-    for (std::size_t l = 0; l < 4; ++l) v.lane[l] = largerOf(v.lane[l], v.lane[l + 4]);
-    for (std::size_t l = 0; l < 2; ++l) v.lane[l] = largerOf(v.lane[l], v.lane[l + 2]);
-    return largerOf(v.lane[0], v.lane[1]);
-}
+double largestOfEight(Lanes v) { return largestLane(v.lane.data()); }
 
 void changesOf(const Changes& c) {
     const auto magnitude = [](double v) { return __builtin_fabs(v); };
@@ -33,9 +28,9 @@ void changesOf(const Changes& c) {
         for (int i = k * c.rows; i < (k + 1) * c.rows; i += 8) {
             const Lanes now = Lanes::load(c.now + i), before = Lanes::load(c.before + i),
                         difference = (now - before).map(magnitude);
-            moved = largerOf(moved, largestOfEight(difference));
-            size = largerOf(size, largestOfEight(now.map(magnitude)));
-            size = largerOf(size, largestOfEight(before.map(magnitude)));
+            moved = larger(moved, largestOfEight(difference));
+            size = larger(size, largestOfEight(now.map(magnitude)));
+            size = larger(size, largestOfEight(before.map(magnitude)));
             (Lanes::load(sum) + difference).store(sum);
         }
         for (int l = 1; l < 8; ++l) sum[0] += sum[l];  // sees what comparisons do not

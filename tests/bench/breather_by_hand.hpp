@@ -70,21 +70,9 @@ public:
     /// Of n steps, the free motions first or last at the ends joined with those of the neighbours.
     void bySplitting(const Splitting& table, int n) {
         const double h = end / n;
-        const std::size_t stages = table.stages.size();
-        std::vector<Free> free(stages);
-        for (std::size_t s = 0; s < stages; ++s)
-            if (!table.stages[s].isKick) free[s] = freeMotion(table.stages[s].fraction * h);
-        const double joined = table.stages.front().fraction + table.stages.back().fraction;
-        const bool isKickFirst = table.stages.front().isKick;
-        const Free both = isKickFirst ? Free{} : freeMotion(joined * h);
-        for (int step = 0; step < n; ++step)
-            for (std::size_t s = step > 0 ? 1 : 0; s < stages; ++s) {
-                const bool isJoined = s + 1 == stages && step + 1 < n;
-                if (table.stages[s].isKick)
-                    kick((isJoined ? joined : table.stages[s].fraction) * h);
-                else
-                    move(isJoined ? both : free[s]);
-            }
+        takeJoinedSteps(
+            table, n, [&](double fraction) { return freeMotion(fraction * h); },
+            [&](const Free& free) { move(free); }, [&](double fraction) { kick(fraction * h); });
     }
     /// The parts of a composition of symmetric steps.
     void byTrigonometric(const std::vector<double>& parts, bool isFiltered, int n) {

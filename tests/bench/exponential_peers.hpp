@@ -18,6 +18,7 @@
 
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes.hpp"
+#include "engine/tableau/splitting_table.hpp"
 
 namespace extremal::bench {
 
@@ -48,6 +49,27 @@ struct EtdFunctions {
         return f;
     }
 };
+
+/// n steps of a splitting, the first and last stages of neighbouring steps joined. `makeFree(fraction)` makes
+/// what `move` takes, once for each length; `kick(fraction)`.
+template <class MakeFree, class Move, class Kick>
+void takeJoinedSteps(const Splitting& table, int n, MakeFree&& makeFree, Move&& move, Kick&& kick) {
+    using Free = decltype(makeFree(0.0));
+    const std::size_t stages = table.stages.size();
+    std::vector<Free> free(stages);
+    for (std::size_t s = 0; s < stages; ++s)
+        if (!table.stages[s].isKick) free[s] = makeFree(table.stages[s].fraction);
+    const double joined = table.stages.front().fraction + table.stages.back().fraction;
+    const Free both = table.stages.front().isKick ? Free{} : makeFree(joined);
+    for (int step = 0; step < n; ++step)
+        for (std::size_t s = step > 0 ? 1 : 0; s < stages; ++s) {
+            const bool isJoined = s + 1 == stages && step + 1 < n;
+            if (table.stages[s].isKick)
+                kick(isJoined ? joined : table.stages[s].fraction);
+            else
+                move(isJoined ? both : free[s]);
+        }
+}
 
 // --- exp(-i t H) ------------------------------------------------------------------------------------------
 

@@ -71,26 +71,14 @@ public:
 
     std::vector<double> bySplitting(const Splitting& table, double end, int n) {
         const double h = end / n;
-        const auto phases = [&](double t) {
+        const auto phases = [&](double fraction) {
             Numbers all;
-            for (const double E : kinetic_) all.push_back(std::polar(1.0, -t * E));
+            for (const double E : kinetic_) all.push_back(std::polar(1.0, -fraction * h * E));
             return all;
         };
-        const std::size_t stages = table.stages.size();
-        std::vector<Numbers> free(stages);
-        for (std::size_t s = 0; s < stages; ++s)
-            if (!table.stages[s].isKick) free[s] = phases(table.stages[s].fraction * h);
-        const double joined = table.stages.front().fraction + table.stages.back().fraction;
-        const bool isKickFirst = table.stages.front().isKick;
-        const Numbers both = isKickFirst ? Numbers{} : phases(joined * h);
-        for (int step = 0; step < n; ++step)
-            for (std::size_t s = step > 0 ? 1 : 0; s < stages; ++s) {
-                const bool isJoined = s + 1 == stages && step + 1 < n;
-                if (table.stages[s].isKick)
-                    kick((isJoined ? joined : table.stages[s].fraction) * h);
-                else
-                    multiply(c_, c_, isJoined ? both : free[s]);
-            }
+        takeJoinedSteps(
+            table, n, phases, [&](const Numbers& free) { multiply(c_, c_, free); },
+            [&](double fraction) { kick(fraction * h); });
         return result();
     }
     std::vector<double> byEtdRk4(double end, int n) {

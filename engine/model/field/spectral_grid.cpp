@@ -49,11 +49,6 @@ void SpectralGrid::toNodes(const double* row, double* nodes) {
 void SpectralGrid::toPoints(const double* row, double* values) {
     const std::size_t width = static_cast<std::size_t>(nx_ / 2 + 1),
                       wide = static_cast<std::size_t>(mx_ / 2 + 1);
-    if (ny_ == 1 && nx_ == mx_) {
-        std::copy_n(row, 2 * kept_, spectrum_.data());
-        std::fill(spectrum_.begin() + static_cast<std::ptrdiff_t>(2 * kept_), spectrum_.end(), 0.0);
-        return atPoints_.toNodes(modesOfRow(spectrum_.data()), values);
-    }
     std::fill(spectrum_.begin(), spectrum_.end(), 0.0);
     for (std::size_t l = 0, to = 0; l < rows(); ++l)
         if (findRow(l, to)) std::copy_n(row + 2 * l * width, 2 * kept_, spectrum_.data() + 2 * to * wide);
