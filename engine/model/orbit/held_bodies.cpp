@@ -87,7 +87,7 @@ Eigen::MatrixXd pullsOf(SampledPotential& potential, const Layout& layout) {
     for (int i = 0, column = 0; i < n; ++i)
         for (int j = i; j < n; ++j) {
             const double K = found(column++);
-            // What is round-off of the others is none.
+            // A pull that is round-off of the others counts as zero.
             pulls(i, j) = pulls(j, i) = std::abs(K) < 1e-14 * found.cwiseAbs().maxCoeff() ? 0 : K;
         }
     return pulls;

@@ -9,7 +9,7 @@
 
 namespace extremal::typed {
 
-/// H(q, p) = p . v - L with v_i = p_i / m_i; none where the masses are not constant, or L is not typed.
+/// H(q, p) = p . v - L with v_i = p_i / m_i; nothing where the masses are not constant, or L is not typed.
 std::optional<NodeEnergies> nodeEnergiesOf(const Mechanics<double>& mechanics);
 
 }  // namespace extremal::typed

@@ -64,7 +64,8 @@ private:
     std::vector<std::uint32_t> place_;  ///< of each value
     std::uint32_t firstFree_;
     FreeRegisters free_;
-    std::vector<std::size_t> last_;  ///< the last block that reads each value; never: outputs, and none
+    std::vector<std::size_t>
+        last_;  ///< the last block that reads each value; never: it is an output, or not read
 };
 
 }  // namespace

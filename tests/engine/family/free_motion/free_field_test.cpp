@@ -57,7 +57,7 @@ Discretization discretization(const std::string& id) {
     return {{"free-motion", {{"knots", id}}, {}}, {"auto", {}, {}}, {}};
 }
 
-/// What the free motion of all nodes is over a time, and the rest of the force, by sums over all nodes.
+/// The free motion of all nodes over a time, without Fourier transforms.
 class Slow {
 public:
     Slow(std::vector<int> sizes, std::vector<double> lengths, double stiffness, double w)
@@ -67,7 +67,7 @@ public:
         for (const int n : sizes_) all *= static_cast<std::size_t>(n);
         return all;
     }
-    /// Kernels c and s with u(t) = c * u + s * v, v(t) = c * v - (d^2/dt^2-like) ..: sums over wave numbers.
+    /// Every node takes a share of every other, a sum over wave numbers of cosines of their distance.
     void move(std::vector<double>& u, std::vector<double>& v, double time) const {
         const std::size_t n = nodes();
         std::vector<double> newU(n), newV(n);
@@ -114,7 +114,7 @@ private slots:
     void stepsAreThoseOfTheAction() {
         const Case of = caseOf(fields[1], knots("srkn-6b"));
         const int n = 21;
-        // The mean of W'' = 3 u^2 - 1 over |u| <= 1 is none.
+        // The mean of W'' = 3 u^2 - 1 over |u| <= 1 is 0.
         const Slow slow({n}, {8}, 0.64, 0);
         State state = of.start;
         const double h = 0.3;
