@@ -122,7 +122,7 @@ public:
     /// One row: a problem, with the index of its error in the curves, against the peers whose names begin so.
     void add(const std::string& problem, const std::vector<Curve>& curves, std::size_t error,
              const std::string& peers = "") {
-        Row row{problem, {}};
+        Row row{problem, {}, {}};
         for (const double target : targets) {
             Cell cell;
             for (const Curve& curve : curves) {
@@ -134,6 +134,12 @@ public:
             }
             row.cells.push_back(cell);
         }
+        for (const Curve& curve : curves) {
+            if (error >= curve.errors.size()) continue;
+            row.curves.push_back({curve.name, curve.isPeer, {}});
+            for (const double target : targets)
+                row.curves.back().seconds.push_back(costAt(curve.errors[error], target));
+        }
         rows_.push_back(row);
         print(row);
     }
@@ -141,6 +147,21 @@ public:
         std::printf("%-24s", "ours / best peer at");
         for (const double t : targets) std::printf("%8.0e", t);
         std::printf("   ours and the best peer, CPU seconds\n");
+    }
+    /// One line per problem and code: the seconds for each error, empty where it is not reached.
+    bool writeCurves(const char* path) const {
+        std::FILE* file = std::fopen(path, "w");
+        if (!file) return false;
+        std::fprintf(file, "problem,code,peer");
+        for (const double t : targets) std::fprintf(file, ",seconds_for_%g", t);
+        std::fprintf(file, "\n");
+        for (const Row& row : rows_)
+            for (const Costs& c : row.curves) {
+                std::fprintf(file, "\"%s\",\"%s\",%d", row.problem.c_str(), c.name.c_str(), c.isPeer);
+                for (const double s : c.seconds) std::fprintf(file, ",%s", number(s).c_str());
+                std::fprintf(file, "\n");
+            }
+        return std::fclose(file) == 0;
     }
     /// One line per problem and error.
     bool writeCsv(const char* path) const {
@@ -166,9 +187,16 @@ private:
         Best ours, peer;
         double ratio() const { return ours.seconds / peer.seconds; }
     };
+    /// What a code costs at the targets.
+    struct Costs {
+        std::string name;
+        bool isPeer;
+        std::vector<double> seconds;
+    };
     struct Row {
         std::string problem;
         std::vector<Cell> cells;
+        std::vector<Costs> curves;
     };
     static std::string number(double value) {
         char text[32] = "";

@@ -21,7 +21,8 @@
 ///
 /// Peers are loops by hand around Boost.odeint and splittings, and the methods in common use that the program
 /// offers beside its own (GSL, SUNDIALS, SRKN, impulse, Gauss collocation with its nodes in vector registers,
-/// split-step with FFTW). Arguments: problems ("P1", "P3"; all by default), --csv FILE.
+/// split-step with FFTW). Arguments: problems ("P1", "P3"; all by default), --csv FILE,
+/// --curves FILE (what every code costs).
 #include <boost/numeric/odeint.hpp>
 
 #include <array>
@@ -163,10 +164,12 @@ void printMachine() {
 int main(int argc, char** argv) {
     using namespace extremal::bench;
     std::set<std::string> wanted;
-    const char* csv = nullptr;
+    const char *csv = nullptr, *curves = nullptr;
     for (int i = 1; i < argc; ++i) {
         if (std::strcmp(argv[i], "--csv") == 0 && i + 1 < argc)
             csv = argv[++i];
+        else if (std::strcmp(argv[i], "--curves") == 0 && i + 1 < argc)
+            curves = argv[++i];
         else
             wanted.insert(argv[i]);
     }
@@ -193,9 +196,14 @@ int main(int argc, char** argv) {
                                        {"P12", vortices},
                                        {"P13", fourBar}})
         if (wanted.empty() || wanted.contains(problem)) run(table);
+    bool isWritten = true;
     if (csv && !table.writeCsv(csv)) {
         std::fprintf(stderr, "%s cannot be written\n", csv);
-        return 1;
+        isWritten = false;
     }
-    return 0;
+    if (curves && !table.writeCurves(curves)) {
+        std::fprintf(stderr, "%s cannot be written\n", curves);
+        isWritten = false;
+    }
+    return isWritten ? 0 : 1;
 }
