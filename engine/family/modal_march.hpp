@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What steps of fields in modes share: components in modes, the rest of the potential, and its variations.
 ///
-///     u'' = -(c^2 k^2 + w) u + G,   G = w u - W'(u),   w: the mean of W'' over |u| <= 1
+///     u'' = -(c^2 k^2 + w) u + G,   G = w u - W'(u),   w: the mean of W'' over |u| <= 1 unless it is given
 /// A row holds the modes of one component after the other, as the grid has them.
 #pragma once
 
@@ -24,7 +24,8 @@ protected:
         : FieldMarch(domain.potential.components() * grid.nodes(), step),
           potential_(domain.potential),
           components_(domain.potential.components()),
-          shifts_(domain.potential.meanCurvatures()),
+          shifts_(domain.mass ? std::vector<double>(components_, *domain.mass)
+                              : domain.potential.meanCurvatures()),
           grid_(std::move(grid)),
           points_(grid_.points()),
           stride_((points_ + Lanes::size - 1) / Lanes::size * Lanes::size) {

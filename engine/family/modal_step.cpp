@@ -165,10 +165,10 @@ SpectralDomain spectralDomainOf(const System& system) {
         std::vector<double> stiffness;
         for (std::size_t c = 0; c < p.components(); ++c) stiffness.push_back(p.stiffness(c));
         return {p.grid().nx,       p.grid().ny,          p.grid().x.length,
-                p.grid().y.length, std::move(stiffness), p.potential()};
+                p.grid().y.length, std::move(stiffness), p.potential(), {}};
     }
     const FieldProblem& p = system.fieldProblem();
-    return {p.size(), 1, p.mesh.length(), 1, {p.elastic.k}, p.potential};
+    return {p.size(), 1, p.mesh.length(), 1, {p.elastic.k}, p.potential, {}};
 }
 
 std::unique_ptr<Integrator> makeSpectralField(const SpectralDomain& domain, const SpectralScheme& scheme,

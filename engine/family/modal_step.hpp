@@ -19,6 +19,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/integrator/integrator.hpp"
@@ -34,6 +35,7 @@ struct SpectralDomain {
     double lengthX = 0, lengthY = 1;
     std::vector<double> stiffness;  ///< c^2 of each component
     JointPotential potential;
+    std::optional<double> mass = {};  ///< w of all components, where it is not the mean of W''
 };
 SpectralDomain spectralDomainOf(const System& system);
 

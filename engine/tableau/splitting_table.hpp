@@ -11,8 +11,10 @@
 ///
 /// Source: S. Blanes and P. C. Moan, Practical symplectic partitioned Runge-Kutta and Runge-Kutta-Nystrom
 /// methods, J. Comput. Appl. Math. 142 (2002) 313-330, tables 2 and 3. The coefficients are printed to 15
-/// digits; those that follow from consistency (sums equal to 1) are computed. tests/engine/baseline checks
-/// the order conditions.
+/// digits; those that follow from consistency (sums equal to 1) are computed. Those of order 8 are A19 and B19
+/// of S. Blanes, F. Casas and A. Escorihuela-Tomas, Runge-Kutta-Nystrom symplectic splitting methods of order
+/// 8, Appl. Numer. Math. 182 (2022) 14-27, tables 4 and 5, printed to 30. tests/engine/tableau checks the order
+/// conditions.
 #pragma once
 
 #include <memory>
@@ -41,6 +43,8 @@ Splitting blanesMoanS10();  ///< order 6, any A and B, 10 kicks
 Splitting srkn6b();         ///< order 4, Nystrom, 6 kicks
 Splitting srkn11b();        ///< order 6, Nystrom, 11 kicks
 Splitting srkn14a();        ///< order 6, Nystrom, 14 kicks, drift first
+Splitting srkn19a();        ///< order 8, Nystrom, 19 kicks, drift first
+Splitting srkn19b();        ///< order 8, Nystrom, 19 kicks
 
 // For H = A + e B with a small e, of which B alone is to be sampled well. The errors are sums of e h^p, e^2
 // h^q, ...; the order is the least of these. Drift first but for lobattoKicks.

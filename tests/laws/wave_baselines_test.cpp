@@ -51,6 +51,8 @@ private slots:
                                         {"srkn-6b", 4},
                                         {"srkn-11b", 6},
                                         {"srkn-14a", 6},
+                                        {"srkn-19a", 8},
+                                        {"srkn-19b", 8},
                                         {"crank-nicolson", 2}})
             QTest::newRow(id) << QString(id) << order;
     }
@@ -65,8 +67,9 @@ private slots:
         system.exact(start)(1, exact.x);
         const double measured = orderOf(name.c_str(), system, start, exact, 3e-12);
         qInfo("order %.3f", measured);
-        // The errors of srkn-14a fall faster than h^6 down to round-off: 7.1 measured.
-        const double above = name == "srkn-14a" ? 3 : 0.25;
+        // Errors of srkn-14a fall faster than h^6 down to round-off, 7.1 measured, as those of order 8
+        // do: 9.2.
+        const double above = name == "srkn-14a" || order == 8 ? 3 : 0.25;
         QVERIFY(measured > order - 0.25 && measured < order + above);
         if (name == "crank-nicolson") return;
         // With a potential that depends on time: its clock moves with the drifts.

@@ -42,15 +42,17 @@ struct NamedSplitting {
     Splitting (*make)();
     bool isInGrid = true;  ///< offered side by side with others
 };
-constexpr std::array<NamedSplitting, 7> freeKnots{
+constexpr std::array<NamedSplitting, 9> freeKnots{
     {{"strang", "F2", "Strang splitting", strang},
      {"suzuki-4", "F4s", "Suzuki 4", suzuki4},
      {"blanes-moan-s6", "F4b", "Blanes-Moan S6", blanesMoanS6},
      {"srkn-6b", "F4", "Blanes-Moan SRKN 6b", srkn6b},
      {"blanes-moan-s10", "F6b", "Blanes-Moan S10", blanesMoanS10},
      {"srkn-11b", "F6", "Blanes-Moan SRKN 11b", srkn11b},
-     {"srkn-14a", "F6a", "Blanes-Moan SRKN 14a", srkn14a}}};
-constexpr std::array<NamedSplitting, 11> keplerKnots{
+     {"srkn-14a", "F6a", "Blanes-Moan SRKN 14a", srkn14a},
+     {"srkn-19a", "F8", "Blanes-Casas SRKN 19a", srkn19a},
+     {"srkn-19b", "F8b", "Blanes-Casas SRKN 19b", srkn19b, false}}};
+constexpr std::array<NamedSplitting, 12> keplerKnots{
     {{"strang", "K2", "Wisdom-Holman", strang},
      {"lobatto-3", "K2l", "Laskar-Robutel SBAB2", [] { return lobattoKicks(3); }, false},
      {"lobatto-4", "K2m", "Laskar-Robutel SBAB3", [] { return lobattoKicks(4); }},
@@ -61,7 +63,8 @@ constexpr std::array<NamedSplitting, 11> keplerKnots{
      {"aba-10-6-4", "K4", "Blanes et al. ABA(10,6,4)", aba1064},
      {"srkn-6b", "K4d", "Blanes-Moan SRKN 6b", srkn6b, false},
      {"srkn-11b", "K6b", "Blanes-Moan SRKN 11b", srkn11b},
-     {"srkn-14a", "K6", "Blanes-Moan SRKN 14a", srkn14a}}};
+     {"srkn-14a", "K6", "Blanes-Moan SRKN 14a", srkn14a},
+     {"srkn-19a", "K8", "Blanes-Casas SRKN 19a", srkn19a}}};
 
 bool isOfArcs(const Settings& space) { return space.type == "kepler-arcs"; }
 
@@ -93,14 +96,24 @@ SpaceEntry freeMotions() {
         spaceOf("free-motion", "free motion",
                 "Free motions between knots of the step, at which the potential kicks: explicit.",
                 "Where the knots are on the step and what the kicks weigh: strang (order 2), suzuki-4, "
-                "blanes-moan-s6, srkn-6b (4), blanes-moan-s10, srkn-11b, srkn-14a (6).",
+                "blanes-moan-s6, srkn-6b (4), blanes-moan-s10, srkn-11b, srkn-14a (6), srkn-19a, "
+                "srkn-19b (8).",
                 needed);
     FieldInfo modes =
         integerField("modes", "N", leastModes, mostModes, nullptr,
                      "Of fields over an interval: the number of Fourier modes; default: the cells "
                      "of the model.");
     modes.isOptional = true;
+    FieldInfo mass = numberField("mass", "mass term", "", 0,
+                                 "Of fields: the w of the free waves, whose frequencies are sqrt(c^2 k^2 + "
+                                 "w), and of the kicks, by W - w u^2/2; default: the mean of W'' over |u| <= "
+                                 "1.");
+    mass.symbol = "w";
+    mass.min = 0;
+    mass.fallback = nullptr;
+    mass.isOptional = true;
     e.item.parameters.push_back(modes);
+    e.item.parameters.push_back(mass);
     return e;
 }
 SpaceEntry keplerArcs() {
@@ -109,7 +122,8 @@ SpaceEntry keplerArcs() {
                    "other forces kick: explicit.",
                    "Where the knots are on the step and what the kicks weigh: strang, lobatto-3, lobatto-4, "
                    "gauss-2, gauss-3 (order 2), aba-10-4, aba-8-6-4, aba-10-6-4, srkn-6b (4), srkn-11b, "
-                   "srkn-14a (6). Where kicks are weak, the nodes of a rule count more than the order.",
+                   "srkn-14a (6), srkn-19a (8). Where kicks are weak, the nodes of a rule count more than "
+                   "the order.",
                    neededOfArcs);
 }
 
@@ -175,6 +189,8 @@ std::string unknownBecause(const System& system) {
 std::string mismatchOf(const Discretization& d, const System& system) {
     if (d.space.find("modes") && !system.parts.find<ScalarField>())
         return "modes are for fields over an interval; others have as many as their model says";
+    if (d.space.find("mass") && !isField(system))
+        return "a mass term is for fields; in other systems all of the potential is in the kicks";
     if (!isOfArcs(d.space) || system.parts.find<HeldBodies>()) return {};
     return "Kepler arcs are for " + std::string(neededOfArcs);
 }
@@ -182,11 +198,17 @@ std::string mismatchOf(const Discretization& d, const System& system) {
 std::unique_ptr<Integrator> makeOn(const System& system, const Discretization& d, double step) {
     const Splitting splitting = splittingOf(d.space).make();
     if (const std::string problem = mismatchOf(d, system); !problem.empty())
-        throw InvalidScene(d.space.find("modes") ? "/space/modes" : "/space/type", problem,
-                           d.space.find("modes") ? "leave it out" : "free-motion");
+        throw InvalidScene(isOfArcs(d.space)       ? "/space/type"
+                           : d.space.find("modes") ? "/space/modes"
+                                                   : "/space/mass",
+                           problem, isOfArcs(d.space) ? "free-motion" : "leave it out");
     if (isOfArcs(d.space)) return makeKeplerMotion(system, system.part<HeldBodies>(), splitting, step);
     if (system.parts.find<Wave>()) return makeWaveSplitting(system, step, splitting);
-    if (isField(system)) return makeModalSplitting(spectralDomainOf(system), splitting, step);
+    if (isField(system)) {
+        SpectralDomain domain = spectralDomainOf(system);
+        if (d.space.find("mass")) domain.mass = d.space.number("mass");
+        return makeModalSplitting(domain, splitting, step);
+    }
     if (system.parts.find<Body>()) return makeFreeBodyMotion(system, splitting, step);
     return makePartitioned(flowOf(system), step, partitionedStages(splitting, true));
 }

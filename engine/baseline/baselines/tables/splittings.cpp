@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Splittings of Blanes and Moan (2002), whose coefficients are in splitting_table: S6 and S10 for any
-/// separable system, the Nyström ones for L = 1/2 sum m v^2 - V(t, q).
+/// separable system, the Nyström ones for L = 1/2 sum m v^2 - V(t, q), with those of order 8 by Blanes, Casas
+/// and Escorihuela-Tomàs (2022).
 #include "engine/baseline/splitting_baseline.hpp"
 
 namespace extremal::baselines {
@@ -21,6 +22,12 @@ std::vector<BaselineEntry> splittings() {
         splittingBaseline("srkn-14a", "Blanes-Moan SRKN 14a",
                           "Symplectic Runge-Kutta-Nyström of order 6 with fourteen kicks, drift first.",
                           srkn14a()),
+        splittingBaseline("srkn-19a", "Blanes-Casas SRKN 19a",
+                          "Symplectic Runge-Kutta-Nyström of order 8 with nineteen kicks, drift first: for "
+                          "errors from about 1e-8 on.",
+                          srkn19a()),
+        splittingBaseline("srkn-19b", "Blanes-Casas SRKN 19b",
+                          "Symplectic Runge-Kutta-Nyström of order 8 with nineteen kicks.", srkn19b()),
     };
 }
 

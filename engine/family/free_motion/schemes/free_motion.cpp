@@ -8,16 +8,18 @@ SchemeEntry free_motion() {
     SchemeEntry e;
     e.item = {"free-motion-<s>",
               "free motion",
-              "Free motions between kicks of the potential: explicit, order 2s (strang, srkn-6b, srkn-11b).",
+              "Free motions between kicks of the potential: explicit, order 2s (strang, srkn-6b, srkn-11b, "
+              "srkn-19a).",
               {},
               {},
               "a kinetic energy whose motion is known, and a potential"};
     e.source = "Leok 2004, sec. 2, 3 and 8";
     e.minDegree = 1;
-    e.maxDegree = 3;
+    e.maxDegree = 4;
     e.make = [](int s) {
+        constexpr const char* knots[] = {"strang", "srkn-6b", "srkn-11b", "srkn-19a"};
         Discretization d;
-        d.space = {"free-motion", {{"knots", s == 1 ? "strang" : s == 2 ? "srkn-6b" : "srkn-11b"}}, {}};
+        d.space = {"free-motion", {{"knots", knots[s - 1]}}, {}};
         return d;
     };
     return e;

@@ -31,7 +31,9 @@ const Table tables[] = {{"strang", strang},
                         {"srkn-6b", srkn6b},
                         {"blanes-moan-s10", blanesMoanS10},
                         {"srkn-11b", srkn11b},
-                        {"srkn-14a", srkn14a}};
+                        {"srkn-14a", srkn14a},
+                        {"srkn-19a", srkn19a},
+                        {"srkn-19b", srkn19b}};
 
 struct Motion {
     const char* name;

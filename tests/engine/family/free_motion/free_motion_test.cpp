@@ -111,6 +111,8 @@ private slots:
         QTest::newRow("blanes-moan-s10") << "blanes-moan-s10" << 6 << 50;
         QTest::newRow("srkn-11b") << "srkn-11b" << 6 << 32;
         QTest::newRow("srkn-14a") << "srkn-14a" << 6 << 32;
+        QTest::newRow("srkn-19a") << "srkn-19a" << 8 << 36;
+        QTest::newRow("srkn-19b") << "srkn-19b" << 8 << 36;
     }
     /// A symmetric top, whose state at t = 10 is known to 32 digits, and one with unlike moments.
     void theOrderIsThatOfTheTable() {
@@ -127,7 +129,9 @@ private slots:
         for (const bool isKnown : {true, false}) {
             const laws::Known& at = top.at[1];
             std::vector<double> h, attitude, momentum;
-            for (const int n : {steps, 2 * steps, 4 * steps}) {
+            // Errors of order 8 are near round-off after few steps.
+            for (const int n : order == 8 ? std::array{steps, 5 * steps / 4, 3 * steps / 2}
+                                          : std::array{steps, 2 * steps, 4 * steps}) {
                 const State end = after(isKnown ? top.system() : unlike, start, d, 10, n);
                 QVERIFY(!end.x.empty());
                 const Apart error =
