@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,12 @@ struct LagrangianTerm {
     void (*jet)(const void*, const T& t, const T* q, const T* v, T* value, T* gradient, T* hessian) = nullptr;
     void (*gradient)(const void*, const T& t, const T* q, const T* v, T* gradient) = nullptr;
     bool hasVelocities = false;
+};
+
+/// A kick, p += kick f(q), and the drift behind it, q_i += drift p_i / m_i. In units of time.
+template <class T>
+struct KickAndDrift {
+    T kick, drift;
 };
 
 template <class T>
@@ -57,6 +64,11 @@ struct Mechanics {
     void (*gradients)(const void*, const T* t, int nodes, const T* q, const T* v, T* gradients) = nullptr;
     void (*hessians)(const void*, const T* t, int nodes, const T* q, const T* v, T* hessians) = nullptr;
     const T* masses = nullptr;  ///< length d
+    /// Kicks and drifts in turn by one call, where the system offers it (null else) and its potential does
+    /// not know the time: a call per force costs more than the force of few coordinates. `perMass`: 1 / m_i.
+    /// `force` is that of the last kick, and before it that of q where `isForceKnown`.
+    void (*kicksAndDrifts)(const void*, std::span<const KickAndDrift<T>>, const T* perMass, bool isForceKnown,
+                           T* q, T* p, T* force) = nullptr;
     bool isTimeDependent = false;
     /// L as a sum of terms, where the system says it in parts; empty: kinetic and potential energy, where L
     /// is separable (lagrangian_terms.hpp), else a whole.

@@ -52,6 +52,15 @@ public:
         : Base(mechanics, step), stages_(stages) {
         for (Vector* v : {&dq_, &dp_, &start_, &change_, &force_, &forceAt_, &inverseMass_})
             *v = Vector::Zero(this->d());
+        for (const PartitionedStage& stage : stages) {
+            const bool isNext = pairs_.empty() || (stage.isKick() && pairs_.back().drift != 0);
+            if (stage.isKick() && isNext)
+                pairs_.push_back({stage.fraction, 0});
+            else if (stage.isKick())
+                pairs_.back().kick += stage.fraction;
+            else
+                (isNext ? firstDrift_ : pairs_.back().drift) += stage.fraction;
+        }
         forceAt_.setConstant(std::numeric_limits<double>::quiet_NaN());
         if (mechanics.isSeparable)
             inverseMass_ = Eigen::Map<const Vector>(mechanics.masses, this->d()).cwiseInverse();
@@ -171,25 +180,35 @@ private:
         kickAndDrift(t, this->q1_, this->p1_, isForceFresh, this->report_);
         if (isForceFresh) forceAt_ = this->q1_;
     }
-    /// The stages of a separable system that does not know the time. `isForceFresh`: whether force_ is that of
-    /// q, before and after.
+    /// The stages of a separable system that does not know the time. `isForceFresh`: whether force_ is that
+    /// of q, before and after.
     void kickAndDrift(double t, Vector& q, Vector& p, bool& isForceFresh, StepReport& report) {
         const auto& m = this->mechanics_;
-        for (const PartitionedStage& stage : stages_) {
-            const double s = stage.fraction * this->h();
-            if (!stage.isKick()) {
-                q += (s * inverseMass_).cwiseProduct(p);
-                isForceFresh = false;
-                continue;
-            }
-            // The last kick of a step and the first of the next one use the same force.
-            if (!isForceFresh) {
-                m.force(m.model.get(), t, q.data(), force_.data());
-                ++report.cost.evaluations;
-                isForceFresh = true;
-            }
-            p += s * force_;
+        const double h = this->h();
+        if (firstDrift_ != 0) {
+            q += (firstDrift_ * h * inverseMass_).cwiseProduct(p);
+            isForceFresh = false;
         }
+        if (pairs_.empty()) return;
+        // The last kick of a step and the first of the next one use the same force.
+        report.cost.evaluations += static_cast<int>(pairs_.size()) - isForceFresh;
+        if (m.kicksAndDrifts) {
+            if (h != timesOf_) {
+                times_ = pairs_;
+                for (KickAndDrift<double>& pair : times_) pair = {pair.kick * h, pair.drift * h};
+                timesOf_ = h;
+            }
+            m.kicksAndDrifts(m.model.get(), times_, inverseMass_.data(), isForceFresh, q.data(), p.data(),
+                             force_.data());
+        } else {
+            for (const KickAndDrift<double>& pair : pairs_) {
+                if (!isForceFresh) m.force(m.model.get(), t, q.data(), force_.data());
+                isForceFresh = false;
+                p += (pair.kick * h) * force_;
+                if (pair.drift != 0) q += (pair.drift * h * inverseMass_).cwiseProduct(p);
+            }
+        }
+        isForceFresh = pairs_.back().drift == 0;
     }
     /// `besides(isKick, isImplicit, t, s)` before each explicit stage, and after each implicit one: where the
     /// state is that of its derivatives. Its false ends the step.
@@ -270,6 +289,10 @@ private:
     }
 
     std::vector<PartitionedStage> stages_;
+    double firstDrift_ = 0;                    ///< of a splitting that begins with one, as a part of the step
+    std::vector<KickAndDrift<double>> pairs_;  ///< what follows, likewise
+    std::vector<KickAndDrift<double>> times_;  ///< the same for the step timesOf_
+    double timesOf_ = 0;
     Vector dq_, dp_, start_, change_, force_, forceAt_, inverseMass_;
     double forceTime_ = 0;  ///< of force_, where forces depend on time
     std::vector<double> manyForces_, manyTimes_;

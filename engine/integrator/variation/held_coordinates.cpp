@@ -164,6 +164,7 @@ Mechanics<double> HeldCoordinates::mechanics() const {
     m.flow = OfHeld::flow;
     m.force = whole.force ? OfHeld::forceOfPotential : nullptr;
     m.forces = whole.forces ? OfHeld::forces : nullptr;
+    m.kicksAndDrifts = nullptr;
     m.gradients = whole.gradients ? OfHeld::gradients : nullptr;
     m.hessians = whole.hessians ? OfHeld::hessians : nullptr;
     m.terms = {};

@@ -24,6 +24,10 @@ struct HarmonicOscillator {
     S potential(const T&, const std::array<S, 1>& q) const {
         return square(q[0]) * (k / 2);
     }
+    template <class T>
+    void force(const T&, const T* q, T* f) const {
+        f[0] = q[0] * -k;
+    }
 };
 
 const std::vector<Field<HarmonicOscillator>>& harmonicOscillatorFields() {

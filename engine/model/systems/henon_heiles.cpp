@@ -28,6 +28,12 @@ struct HenonHeiles {
         const S x2 = square(q[0]), y2 = square(q[1]);
         return (x2 + y2) * T(0.5) + (x2 - y2 * (T(1) / T(3))) * q[1] * T(lambda);
     }
+    template <class T>
+    void force(const T&, const T* q, T* f) const {
+        const T x = q[0], y = q[1], l = T(lambda);
+        f[0] = -x - l * x * (y + y);
+        f[1] = l * (y * y - x * x) - y;
+    }
 };
 
 const std::vector<Field<HenonHeiles>>& henonHeilesFields() {

@@ -34,6 +34,11 @@ struct Pendulum {
         using std::cos;
         return cos(q[0]) * (-m * g * l);
     }
+    template <class T>
+    void force(const T&, const T* q, T* f) const {
+        using std::sin;
+        f[0] = sin(q[0]) * (-m * g * l);
+    }
 };
 
 const std::vector<Field<Pendulum>>& pendulumFields() {
