@@ -242,6 +242,10 @@ inline void addBreathersByHand(std::vector<Curve>& curves) {
                 [](auto& b, int n) { b.bySplitting(srkn11b(), n); });
             add("SRKN 14a", counts(20, 2000, 1.12), 0.02,
                 [](auto& b, int n) { b.bySplitting(srkn14a(), n); });
+            add("SRKN 19a", counts(15, 1500, 1.12), 0.02,
+                [](auto& b, int n) { b.bySplitting(srkn19a(), n); });
+            add("SRKN 19b", counts(15, 1500, 1.12), 0.02,
+                [](auto& b, int n) { b.bySplitting(srkn19b(), n); });
             add("ETDRK4", counts(100, 8000, 1.4), 0.01, [](auto& b, int n) { b.byEtdRk4(n); });
             for (const bool isFiltered : {false, true})
                 for (const double order : {4.0, 8.0}) {

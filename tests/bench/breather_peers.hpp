@@ -52,7 +52,12 @@ inline void spectralBreather(std::vector<Curve>& curves, int modes) {
                 schemeOf({{"fourier-field", {{"degree", static_cast<double>(degree)}, {"nodes", "same"}}, {}},
                           {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}},
                           {"auto", {{"tolerance", tolerance}}, {}}}));
-    for (const char* knots : {"srkn-6b", "srkn-11b", "srkn-14a"}) add(knots, freeMotion(knots));
+    for (const char* knots : {"srkn-6b", "srkn-11b", "srkn-14a", "srkn-19a", "srkn-19b"}) {
+        add(knots, freeMotion(knots));
+        for (const double mass : {0.0, 1.0})
+            add(std::string(knots) + ", mass " + formatNumber(mass),
+                schemeOf({{"free-motion", {{"knots", knots}, {"mass", mass}}, {}}, {"auto", {}, {}}, {}}));
+    }
 }
 
 /// Every scheme on meshes and steps that are refined together; the error is the L2 norm at the nodes.

@@ -17,8 +17,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/integrator/composition.hpp"
+#include "engine/tableau/splitting_table.hpp"
 #include "tests/bench/adaptive_peers.hpp"
+#include "tests/bench/exponential_peers.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/planet_peers.hpp"
 #include "tests/bench/scheme_makers.hpp"
@@ -49,6 +52,26 @@ struct OwnPeer {
     std::string name;
     std::function<std::array<double, 2 * d>(double steps)> end;
 };
+
+/// Kicks and drifts by hand, the ends of steps joined; positions, velocities.
+template <std::size_t d, class Accelerate>
+void kickAndDrift(double* y, const Splitting* table, double end, double n, const Accelerate* accelerate) {
+    const double h = end / n;
+    std::array<double, d> x, v, a;
+    std::copy_n(y, d, x.begin());
+    std::copy_n(y + d, d, v.begin());
+    takeJoinedSteps(
+        *table, static_cast<int>(n), [&](double fraction) { return fraction * h; },
+        [&](double s) {
+            for (std::size_t i = 0; i < d; ++i) x[i] += s * v[i];
+        },
+        [&](double fraction) {
+            (*accelerate)(x.data(), a.data());
+            for (std::size_t i = 0; i < d; ++i) v[i] += fraction * h * a[i];
+        });
+    std::copy_n(x.begin(), d, y);
+    std::copy_n(v.begin(), d, y + d);
+}
 
 /// `accelerate(x, a)`; `coefficients` as for integrateByTaylor.
 template <std::size_t d, class Accelerate, class Coefficients>
@@ -81,7 +104,8 @@ void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& acc
             curves.add("Gauss " + std::to_string(2 * s) + (tolerance > 0 ? " to 1e-9" : ""), false, steps,
                        [&](double n) { return error(endOf(schemeOf(g), n)); });
         }
-    for (const char* knots : {"strang", "srkn-6b", "srkn-11b", "srkn-14a", "blanes-moan-s10"})
+    for (const char* knots :
+         {"strang", "srkn-6b", "srkn-11b", "srkn-14a", "srkn-19a", "srkn-19b", "blanes-moan-s10"})
         curves.add(std::string("free motion ") + knots, false, steps,
                    [&](double n) { return error(endOf(freeMotion(knots), n)); });
     for (const double order : {6, 8}) {
@@ -96,8 +120,19 @@ void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& acc
     curves.add("Gauss collocation 16", true, steps, [&](double n) {
         return error(endOf(baselineOf("gauss-collocation", {{"stages", 8.0}}), n));
     });
-    for (const char* id : {"srkn-6b", "srkn-11b", "srkn-14a", "blanes-moan-s10"})
+    for (const char* id : {"srkn-6b", "srkn-11b", "srkn-14a", "srkn-19a", "srkn-19b", "blanes-moan-s10"})
         curves.add(id, true, steps, [&](double n) { return error(endOf(baselineOf(id), n)); });
+    for (const auto& [name, splitting] : {std::pair{"SRKN 6b", srkn6b()},
+                                          {"SRKN 11b", srkn11b()},
+                                          {"SRKN 14a", srkn14a()},
+                                          {"SRKN 19a", srkn19a()},
+                                          {"S10", blanesMoanS10()}})
+        curves.add(std::string(name) + " by hand", true, steps, [&](double n) {
+            std::array<double, 2 * d> y = p.start;
+            ForThisMachine<&kickAndDrift<d, Accelerate>>::call()(y.data(), &splitting, p.end, std::floor(n),
+                                                                 &accelerate);
+            return error(y);
+        });
     addAdaptivePeers<d>(curves, {p.system, from, p.start, p.end, p.tolerances}, accelerate, coefficients,
                         error);
     for (const auto& [name, make] : p.schemes)
@@ -193,8 +228,8 @@ inline void outerPlanets(PeerTable& table, double years, FewBodies<Planets::d> s
         others.push_back({"arcs by hand, " + name, [&, knots = table](double n) {
                               return planets.byKeplerArcs(start, end, n, knots);
                           }});
-    for (const char* knots :
-         {"strang", "lobatto-3", "lobatto-4", "gauss-3", "aba-10-4", "aba-8-6-4", "aba-10-6-4", "srkn-14a"})
+    for (const char* knots : {"strang", "lobatto-3", "lobatto-4", "gauss-3", "aba-10-4", "aba-8-6-4",
+                              "aba-10-6-4", "srkn-14a", "srkn-19a"})
         settings.schemes.push_back({std::string("Kepler arcs, ") + knots, keplerArcs(knots)});
     settings.system = system;
     settings.start = start;
@@ -227,10 +262,13 @@ inline void outerPlanetsLong(PeerTable& table) {
                            "Gauss 20",
                            "Gauss 24",
                            "free motion srkn-14a",
+                           "free motion srkn-19a",
                            "free motion blanes-moan-s10",
                            "Kahan-Li 8",
                            "Gauss collocation 16",
                            "srkn-14a",
+                           "srkn-19a",
+                           "SRKN 19a by hand",
                            "blanes-moan-s10",
                            "odeint rkf78",
                            "Taylor by hand",
@@ -244,7 +282,8 @@ inline void outerPlanetsLong(PeerTable& table) {
                            "Kepler arcs, lobatto-3",
                            "Kepler arcs, lobatto-4",
                            "Kepler arcs, aba-10-4",
-                           "Kepler arcs, aba-10-6-4"}});
+                           "Kepler arcs, aba-10-6-4",
+                           "Kepler arcs, srkn-19a"}});
 }
 
 }  // namespace extremal::bench

@@ -33,13 +33,13 @@ inline void kepler(PeerTable& table) {
         curves.add("Gauss " + std::to_string(2 * s), false, steps, [&](double n) {
             return run(schemeOf(*namedScheme("galerkin-gauss-" + std::to_string(s))), n);
         });
-    for (const char* knots : {"srkn-11b", "srkn-14a", "blanes-moan-s10"})
+    for (const char* knots : {"srkn-11b", "srkn-14a", "srkn-19a", "blanes-moan-s10"})
         curves.add(std::string("free motion ") + knots, false, steps,
                    [&](double n) { return run(freeMotion(knots), n); });
     curves.add("Gauss collocation 16", true, steps, [&](double n) {
         return run(baselineOf("gauss-collocation", {{"stages", 8.0}}), n);
     });
-    for (const char* id : {"srkn-11b", "srkn-14a", "blanes-moan-s10"})
+    for (const char* id : {"srkn-11b", "srkn-14a", "srkn-19a", "blanes-moan-s10"})
         curves.add(id, true, steps, [&](double n) { return run(baselineOf(id), n); });
     Taylor square, force;  // r^2, r^-3
     addAdaptivePeers<2>(

@@ -18,6 +18,16 @@
 
 namespace extremal::bench {
 
+/// Whether a peer is a scheme of the framework all the same, in code by hand or as a baseline: what one of
+/// ours could cost. By the beginning of its name.
+inline bool isOfFramework(const std::string& name) {
+    for (const char* const beginning :
+         {"SRKN", "S10", "srkn", "blanes-moan", "strang", "suzuki", "impulse", "Gauss", "splitting",
+          "arcs by hand", "logarithmic leapfrog", "RATTLE", "Deuflhard"})
+        if (name.starts_with(beginning)) return true;
+    return false;
+}
+
 /// What a run says that failed.
 inline const std::vector<double> failed{HUGE_VAL};
 
@@ -131,6 +141,8 @@ public:
                 const double cost = costAt(curve.errors[error], target);
                 Best& best = curve.isPeer ? cell.peer : cell.ours;
                 if (cost < best.seconds) best = {cost, curve.name};
+                Best& kind = !curve.isPeer || isOfFramework(curve.name) ? cell.framework : cell.others;
+                if (cost < kind.seconds) kind = {cost, curve.name};
             }
             row.cells.push_back(cell);
         }
@@ -185,6 +197,7 @@ private:
     };
     struct Cell {
         Best ours, peer;
+        Best framework, others;  ///< the same codes, by what they are: isOfFramework()
         double ratio() const { return ours.seconds / peer.seconds; }
     };
     /// What a code costs at the targets.
@@ -204,21 +217,33 @@ private:
         return text;
     }
     /// "-": neither reaches the error; "none": ours does not; "alone": no peer does.
+    static void printRatio(const Best& ours, const Best& peer) {
+        const bool isOurs = std::isfinite(ours.seconds), isPeer = std::isfinite(peer.seconds);
+        if (isOurs && isPeer)
+            std::printf("%8.3g", ours.seconds / peer.seconds);
+        else
+            std::printf("%8s", isOurs ? "alone" : isPeer ? "none" : "-");
+    }
+    /// Where a cell is above 1, a second line says what the cheapest code of the framework by anyone costs
+    /// against the best of all others: ours cannot cost less than that by better code alone.
     static void print(const Row& row) {
         std::printf("%-24s", row.problem.c_str());
-        for (const Cell& c : row.cells) {
-            const bool isOurs = std::isfinite(c.ours.seconds), isPeer = std::isfinite(c.peer.seconds);
-            if (isOurs && isPeer)
-                std::printf("%8.3g", c.ratio());
-            else
-                std::printf("%8s", isOurs ? "alone" : isPeer ? "none" : "-");
-        }
+        for (const Cell& c : row.cells) printRatio(c.ours, c.peer);
         std::printf("  ");
         for (const Cell& c : row.cells)
             if (std::isfinite(c.ours.seconds) || std::isfinite(c.peer.seconds))
                 std::printf(" | %s %s : %s %s", c.ours.name.c_str(), number(c.ours.seconds).c_str(),
                             c.peer.name.c_str(), number(c.peer.seconds).c_str());
         std::printf("\n");
+        if (std::any_of(row.cells.begin(), row.cells.end(), [](const Cell& c) { return c.ratio() > 1; })) {
+            std::printf("%-24s", "    framework : others");
+            for (const Cell& c : row.cells) printRatio(c.framework, c.others);
+            std::printf("  ");
+            for (const Cell& c : row.cells)
+                if (std::isfinite(c.framework.seconds))
+                    std::printf(" | %s : %s", c.framework.name.c_str(), c.others.name.c_str());
+            std::printf("\n");
+        }
         std::fflush(stdout);
     }
 

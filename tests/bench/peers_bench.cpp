@@ -101,7 +101,7 @@ void turningBody(PeerTable& table, const char* title, const laws::KnownBody& kno
         curves.push_back(measure("lie-" + std::to_string(degree), false, steps, 0.02,
                                  [&](double n) { return run(schemeOf(laws::liePair(degree)), n); }));
     if (isTop) {
-        for (const char* knots : {"strang", "srkn-6b", "srkn-11b", "srkn-14a"})
+        for (const char* knots : {"strang", "srkn-6b", "srkn-11b", "srkn-14a", "srkn-19a", "srkn-19b"})
             curves.push_back(measure(std::string("free motion ") + knots, false, steps, 0.02,
                                      [&](double n) { return run(freeMotion(knots), n); }));
         const std::vector<double> parts = compositionParts({"kahan-li", {{"order", 8.0}}, {}}, 2);

@@ -54,7 +54,13 @@ inline void solitons(PeerTable& table) {
                                 makeIntegrator(system, withEstimates(d, system, start), {0, end / steps}),
                                 static_cast<int>(steps));
                         }));
-    for (const char* id : {"strang", "blanes-moan-s6", "srkn-6b", "srkn-11b", "srkn-14a", "if-rk4"})
+    for (const char* knots : {"strang", "blanes-moan-s6", "srkn-6b", "srkn-11b", "srkn-14a", "srkn-19a"})
+        curves.push_back(measure(
+            std::string("free motion ") + knots, false, counts(10, 4000, 1.2), 0.1, [&](double steps) {
+                return errorWith(freeMotion(knots)(system, start, end / steps), static_cast<int>(steps));
+            }));
+    for (const char* id :
+         {"strang", "blanes-moan-s6", "srkn-6b", "srkn-11b", "srkn-14a", "srkn-19a", "if-rk4"})
         curves.push_back(measure(id, true, counts(10, 4000, 1.2), 0.1, [&](double steps) {
             return errorWith(findBaseline(id)->make(system, {.step = end / steps, .settings = {id, {}, {}}}),
                              static_cast<int>(steps));
@@ -72,6 +78,7 @@ inline void solitons(PeerTable& table) {
     byHand("SRKN 6b", 4000, [&](auto& psi, int n) { return psi.bySplitting(srkn6b(), end, n); });
     byHand("SRKN 11b", 4000, [&](auto& psi, int n) { return psi.bySplitting(srkn11b(), end, n); });
     byHand("SRKN 14a", 4000, [&](auto& psi, int n) { return psi.bySplitting(srkn14a(), end, n); });
+    byHand("SRKN 19a", 4000, [&](auto& psi, int n) { return psi.bySplitting(srkn19a(), end, n); });
     table.add("P6n two solitons", curves, 0);
 }
 

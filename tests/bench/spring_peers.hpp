@@ -272,7 +272,7 @@ inline void springs(PeerTable& table) {
                         gauss.solver.keys.emplace_back("tolerance", 1e-12);
                         steps(name + " to 1e-12", false, *form, schemeOf(gauss), many);
                     }
-                for (const char* id : {"srkn-11b", "srkn-14a", "blanes-moan-s10"})
+                for (const char* id : {"srkn-11b", "srkn-14a", "srkn-19a", "blanes-moan-s10"})
                     steps(id, true, cartesian, baselineOf(id), many);
                 steps("Gauss collocation 16", true, cartesian,
                       baselineOf("gauss-collocation", {{"stages", 8.0}}), many);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// P5 of the table of peers: a wave function in a cosine well, N = 256 and 512, at t = 1.
 ///
-/// Peers of which each row is: those that take all of the spectrum, as our schemes do, and those that an
-/// expert tells beforehand which energies the packet has ("cut", wave_by_hand.hpp).
+/// Rows of two kinds: codes that take all of the spectrum, and those that an expert tells beforehand which
+/// energies the packet has: peers ("cut", wave_by_hand.hpp) as well as schemes, whose spaces may have fewer
+/// modes than the model (the key `modes`).
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,25 @@
 #include "tests/bench/wave_costs.hpp"
 
 namespace extremal::bench {
+
+/// Modes k = 0, 1, ..., -2, -1 among those of more.
+inline std::vector<double> amongMore(const std::vector<double>& few, std::size_t size) {
+    std::vector<double> all(size);
+    const auto half = static_cast<std::ptrdiff_t>(few.size() / 2);
+    std::copy_n(few.begin(), half, all.begin());
+    std::copy_n(few.end() - half, half, all.end() - half);
+    return all;
+}
+
+/// By `modes` of its own, from the same packet.
+inline Method withModes(int modes, const Method& method) {
+    WaveProblem own{"", onCircle("50*(1 - cos(x))", 1, modes), {}, 1, {}, 0};
+    own.start = packet(own.system, 20, 5);
+    return [=](const WaveProblem& whole, int n) {
+        const std::vector<double> x = method(own, n);
+        return x.empty() ? x : amongMore(x, whole.exact.size());
+    };
+}
 
 inline void waves(PeerTable& table) {
     for (const int modes : {256, 512}) {
@@ -29,13 +50,17 @@ inline void waves(PeerTable& table) {
         };
         for (const int degree : {4, 8, 12, 16})
             for (const double tolerance : {0.0, 1e-10})
-                add("Gauss " + std::to_string(2 * degree) + (tolerance > 0 ? " in fours" : " in pairs"),
-                    false, pairMethod(degree, "banded", tolerance));
-        for (const char* knots : {"strang", "suzuki-4", "srkn-6b", "srkn-11b", "srkn-14a"})
+                for (const int own : {0, 64, 80, 96, 128}) {
+                    const Method method = pairMethod(degree, "banded", tolerance);
+                    add((own > 0 ? "cut to " + std::to_string(own) + " modes, " : "") + "Gauss " +
+                            std::to_string(2 * degree) + (tolerance > 0 ? " in fours" : " in pairs"),
+                        false, own > 0 ? withModes(own, method) : method);
+                }
+        for (const char* knots : {"strang", "suzuki-4", "srkn-6b", "srkn-11b", "srkn-14a", "srkn-19a"})
             add(std::string("free motion ") + knots, false,
                 schemeMethod({{"free-motion", {{"knots", knots}}, {}}, {"auto", {}, {}}, {}}));
         add("SRKN 14a by hand", true, bareSrkn14a);
-        for (const char* id : {"srkn-14a", "srkn-11b", "strang", "chebyshev-propagation"})
+        for (const char* id : {"srkn-19a", "srkn-14a", "srkn-11b", "strang", "chebyshev-propagation"})
             add(id, true, baselineMethod(id));
         addWavesByHand(curves, p);
         std::vector<Curve> whole = curves;
