@@ -91,8 +91,10 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     }
     Line::Blocks ends = line.sortIntoBlocks();
     const bool isGrouped = !ends.empty();
-    if (!isGrouped)
+    if (!isGrouped) {
+        line.spread();
         for (std::size_t s = 0; s < line.steps.size(); ++s) ends.push_back(s + 1);
+    }
     const auto firstFree = static_cast<std::uint32_t>(tape.inputs_ + tape.constants_.size());
     Placing placing(line, std::move(place), firstFree, ends);
     std::size_t first = 0;

@@ -2,6 +2,7 @@
 #include "engine/model/typed/tape/tape_line.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -81,6 +82,35 @@ Line::Blocks Line::sortIntoBlocks() {
     std::stable_sort(steps.begin(), steps.end(),
                      [&](const Step& a, const Step& b) { return keyOf(a) < keyOf(b); });
     return ends;
+}
+
+/// A list scheduling: of the next steps the first one whose operands are old, or else the one whose youngest
+/// operand is the oldest. A wider window makes more values wait for their use, and takes more registers.
+void Line::spread() {
+    constexpr std::size_t window = 32, old = 12;
+    std::vector<std::size_t> ages(uses.size(), 0);  // the place from which a value is old
+    constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
+    for (const Step& step : steps) {
+        ages[step.makes] = unknown;
+        if (step.makesToo != none) ages[step.makesToo] = unknown;
+    }
+    std::vector<Step> next, sorted;
+    sorted.reserve(steps.size());
+    for (std::size_t taken = 0; sorted.size() < steps.size();) {
+        while (next.size() < window && taken < steps.size()) next.push_back(steps[taken++]);
+        std::size_t best = 0, bestAge = unknown;
+        for (std::size_t k = 0; k < next.size() && bestAge > sorted.size(); ++k) {
+            std::size_t age = 0;
+            forOperands(next[k].code, [&](Register v) { age = std::max(age, ages[v]); });
+            if (age < bestAge) best = k, bestAge = age;
+        }
+        const Step& step = next[best];
+        ages[step.makes] = sorted.size() + old;
+        if (step.makesToo != none) ages[step.makesToo] = sorted.size() + old;
+        sorted.push_back(step);
+        next.erase(next.begin() + static_cast<std::ptrdiff_t>(best));
+    }
+    steps.swap(sorted);
 }
 
 void Line::drop(const std::vector<char>& isDropped) {

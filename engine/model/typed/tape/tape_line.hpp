@@ -44,6 +44,9 @@ struct Line {
     /// Sorts the steps by how many have to be there before them, and then by operations; empty, and nothing
     /// changed, where fewer than half of them are in large blocks.
     Blocks sortIntoBlocks();
+    /// Puts steps that do not wait for each other between those that do: a processor that carries out several
+    /// together has to wait for what is stored before it is read. The operations are the same.
+    void spread();
 
 private:
     void drop(const std::vector<char>& isDropped);

@@ -14,6 +14,7 @@
 
 #include "engine/model/typed/tape/free_registers.hpp"
 #include "engine/model/typed/tape/tape.hpp"
+#include "engine/model/typed/tape/tape_line.hpp"
 #include "engine/model/typed/tape/tape_run.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
 #include "tests/engine/model/typed/typed.hpp"
@@ -193,6 +194,24 @@ private slots:
     void shortOnesAreNotGrouped() {
         const System system = chainOf(4, "sum(i, 1..n, x[i]_t^2/2) - sum(i, 1..n-1, (x[i+1]-x[i])^4)");
         QVERIFY(typed::gradientTapeOf(system.mechanics())->groups().empty());
+    }
+    /// What an instruction reads was made some instructions before it, where there are others to do.
+    void shortOnesDoNotWait() {
+        const System system = chainOf(
+            5, "sum(i, 1..n, x[i]_t^2/2) + sum(i, 1..n-1, sum(j, i+1..n, 1/sqrt(1 + (x[i]-x[j])^2)))");
+        const typed::Tape& tape = *typed::gradientTapeOf(system.mechanics());
+        QVERIFY(tape.groups().empty());
+        constexpr int near = 4;
+        int at = 0, waiting = 0;
+        std::vector<int> made(tape.registers(), -near - 1);
+        for (const typed::Instruction& i : tape.code()) {
+            int last = -near - 1;
+            typed::forOperands(i, [&](std::uint32_t r) { last = std::max(last, made[r]); });
+            if (last >= at - near) ++waiting;
+            made[i.to] = at++;
+        }
+        qInfo("%d of %d", waiting, at);
+        QVERIFY(waiting < at / 10);
     }
 
 private:
