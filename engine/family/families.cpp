@@ -58,6 +58,7 @@ double megabytes(const Table<double>& t) {
     const auto entries = 4 * t.value.size() + t.extrapolation.size() + t.change.size();
     return 8e-6 * static_cast<double>(entries);
 }
+double megabytes(const SharedCell& cell) { return 2 * megabytes(cell->table); }
 
 /// What was made for a space and a rule before: a function of the settings alone. Sizes are in megabytes.
 template <class V>
@@ -252,6 +253,11 @@ Table<double> tableOf(const Settings& space, const Settings& quadrature) {
     static KnownBySettings<Table<double>> known("table");
     return known.get(space, quadrature,
                      [&] { return knownFamily(space).parts.find<Tables>()->make(space, quadrature); });
+}
+
+SharedCell cellOf(const Settings& space, const Settings& quadrature) {
+    static KnownBySettings<SharedCell> known("cell");
+    return known.get(space, quadrature, [&] { return SharedCell(tableOf(space, quadrature)); });
 }
 
 std::optional<Discretization> namedScheme(std::string_view id) {

@@ -4,6 +4,7 @@
 
 #include "engine/action/table.hpp"
 #include "engine/family/family.hpp"
+#include "engine/phase/phase_cell.hpp"
 
 namespace extremal {
 
@@ -11,5 +12,7 @@ namespace extremal {
 /// it can be, which takes as long as thousands of steps. Keys must be complete. Throws InvalidScene where the
 /// combination is unsupported. Any thread may ask.
 Table<double> tableOf(const Settings& space, const Settings& quadrature);
+/// Its cell in phase space, remembered likewise, where the table does not change with the step.
+SharedCell cellOf(const Settings& space, const Settings& quadrature);
 
 }  // namespace extremal

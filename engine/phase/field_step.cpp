@@ -12,8 +12,8 @@ namespace {
 
 class FieldStep final : public Integrator {
 public:
-    FieldStep(const FirstOrder& of, const Table<double>& table, double step, const SolverPolicy& policy)
-        : m_(static_cast<std::size_t>(of.variables)), cell_(makePhaseStep(fieldOf(of), table, step, policy)) {
+    FieldStep(const FirstOrder& of, const SharedCell& cell, double step, const SolverPolicy& policy)
+        : m_(static_cast<std::size_t>(of.variables)), cell_(makePhaseStep(fieldOf(of), cell, step, policy)) {
         inner_.x.assign(2 * m_, 0);
     }
     FieldStep(const FieldStep& other)
@@ -71,9 +71,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeFieldStep(const FirstOrder& of, const Table<double>& table, double step,
+std::unique_ptr<Integrator> makeFieldStep(const FirstOrder& of, const SharedCell& cell, double step,
                                           const SolverPolicy& policy) {
-    return std::make_unique<FieldStep>(of, table, step, policy);
+    return std::make_unique<FieldStep>(of, cell, step, policy);
 }
 
 }  // namespace extremal

@@ -5,15 +5,15 @@
 
 #include <memory>
 
-#include "engine/action/table.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/first_order/first_order.hpp"
+#include "engine/phase/phase_cell.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
 
 /// `table` does not change with the step.
-std::unique_ptr<Integrator> makeFieldStep(const FirstOrder& of, const Table<double>& table, double step,
+std::unique_ptr<Integrator> makeFieldStep(const FirstOrder& of, const SharedCell& cell, double step,
                                           const SolverPolicy& policy);
 
 }  // namespace extremal

@@ -8,11 +8,11 @@
 
 namespace extremal {
 
-std::unique_ptr<Integrator> makeFlowStep(const PhaseMechanics& mechanics, const Table<double>& table,
-                                         double step, const SolverPolicy& policy) {
-    if (!mechanics.isSeparable()) return makePhaseStep(mechanics, table, step, policy);
+std::unique_ptr<Integrator> makeFlowStep(const PhaseMechanics& mechanics, const SharedCell& cell, double step,
+                                         const SolverPolicy& policy) {
+    if (!mechanics.isSeparable()) return makePhaseStep(mechanics, cell, step, policy);
     return makeCondensed(
-        flowOf(mechanics), [table](double) { return std::vector{table}; }, step, policy);
+        flowOf(mechanics), [cell](double) { return std::vector{cell->table}; }, step, policy);
 }
 
 }  // namespace extremal

@@ -16,10 +16,10 @@ namespace {
 
 class OneFormStep final : public Integrator {
 public:
-    OneFormStep(const OneForm& form, const Table<double>& table, double step, const SolverPolicy& policy)
+    OneFormStep(const OneForm& form, const SharedCell& cell, double step, const SolverPolicy& policy)
         : form_(form),
           canonical_(canonicalOf(form)),
-          cell_(makePhaseStep(canonical_, table, step, policy)),
+          cell_(makePhaseStep(canonical_, cell, step, policy)),
           n_(form.places.size()) {
         y0_.assign(n_, 0);
         p_.assign(n_, 0);
@@ -164,9 +164,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeOneFormStep(const OneForm& form, const Table<double>& table, double step,
+std::unique_ptr<Integrator> makeOneFormStep(const OneForm& form, const SharedCell& cell, double step,
                                             const SolverPolicy& policy) {
-    return std::make_unique<OneFormStep>(form, table, step, policy);
+    return std::make_unique<OneFormStep>(form, cell, step, policy);
 }
 
 }  // namespace extremal

@@ -10,15 +10,15 @@
 
 #include <memory>
 
-#include "engine/action/table.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/first_order/one_form.hpp"
+#include "engine/phase/phase_cell.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
 
-/// `table` does not change with the step. Of a form with a plane.
-std::unique_ptr<Integrator> makeOneFormStep(const OneForm& form, const Table<double>& table, double step,
+/// `cell` of a table that does not change with the step, for a form with a plane.
+std::unique_ptr<Integrator> makeOneFormStep(const OneForm& form, const SharedCell& cell, double step,
                                             const SolverPolicy& policy);
 
 }  // namespace extremal

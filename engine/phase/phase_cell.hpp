@@ -22,6 +22,8 @@
 
 #include <Eigen/Core>
 
+#include <memory>
+
 #include "engine/action/table.hpp"
 
 namespace extremal {
@@ -46,6 +48,17 @@ struct PhaseCell {
     Vector fromStart;      ///< r_i
     Vector endRates;       ///< q_1 = q_0 + h endRates . K
     Matrix ahead;          ///< values at the nodes of the next step of what has values here; empty: unknown
+};
+
+/// A cell of which all steps have their share: made of a table, or known before (cellOf).
+class SharedCell {
+public:
+    SharedCell(const Table<double>& table) : cell_(std::make_shared<const PhaseCell>(table)) {}
+    const PhaseCell& operator*() const { return *cell_; }
+    const PhaseCell* operator->() const { return cell_.get(); }
+
+private:
+    std::shared_ptr<const PhaseCell> cell_;
 };
 
 }  // namespace extremal

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "engine/core/algebra/instruction_set.hpp"
-#include "engine/core/algebra/lanes.hpp"
-#include "engine/core/algebra/largest_lane.hpp"
 #include "engine/solve/correction_size.hpp"
 
 namespace extremal {
@@ -16,48 +15,103 @@ namespace {
 struct Changes {
     int rows, columns;
     const double *now, *before;
-    double *moved, *size;  ///< by column: the largest difference, and the largest of both
+    double *moved, *size;  ///< by column: the largest difference, and the largest of both; in eights
+    double* defect;        ///< 0 where all differences are finite, else not a number
 };
 
-double largestOfEight(Lanes v) { return largestLane(v.lane.data()); }
+/// The registers of an instruction set, as of the products of nodes (core/algebra/small_product.cpp). They
+/// are handed on by reference alone: how they are returned depends on the set.
+struct Two {
+    using Pack = double __attribute__((vector_size(16)));
+    using Bits = long long __attribute__((vector_size(16)));
+};
+struct Four {
+    using Pack = double __attribute__((vector_size(32)));
+    using Bits = long long __attribute__((vector_size(32)));
+};
+struct Eight {
+    using Pack = double __attribute__((vector_size(64)));
+    using Bits = long long __attribute__((vector_size(64)));
+};
 
-void changesOf(const Changes& c) {
-    const auto magnitude = [](double v) { return __builtin_fabs(v); };
-    for (int k = 0; k < c.columns; ++k) {
-        double moved = 0, size = 0, sum[8] = {};
-        for (int i = k * c.rows; i < (k + 1) * c.rows; i += 8) {
-            const Lanes now = Lanes::load(c.now + i), before = Lanes::load(c.before + i),
-                        difference = (now - before).map(magnitude);
-            moved = larger(moved, largestOfEight(difference));
-            size = larger(size, largestOfEight(now.map(magnitude)));
-            size = larger(size, largestOfEight(before.map(magnitude)));
-            (Lanes::load(sum) + difference).store(sum);
+/// most = max(most, |v|), which a NaN escapes.
+template <class Register>
+inline void raise(typename Register::Pack& most, const typename Register::Pack& v) {
+    using Bits = typename Register::Bits;
+    const auto size = reinterpret_cast<typename Register::Pack>(reinterpret_cast<const Bits&>(v) &
+                                                                std::numeric_limits<long long>::max());
+    most = size > most ? size : most;
+}
+
+/// to_k = the largest entry of packs[k], as many as a pack has entries: those of two at a time are halved.
+template <class Register>
+inline void largestOfEach(typename Register::Pack* packs, double* to) {
+    using Pack = typename Register::Pack;
+    constexpr int width = sizeof(Pack) / sizeof(double);
+    typename Register::Bits even, odd;
+    for (int k = 0; k < width; ++k) even[k] = 2 * k, odd[k] = 2 * k + 1;
+    for (int n = width / 2; n > 0; n /= 2)
+        for (int k = 0; k < n; ++k) {
+            const Pack one = __builtin_shuffle(packs[2 * k], packs[2 * k + 1], even),
+                       other = __builtin_shuffle(packs[2 * k], packs[2 * k + 1], odd);
+            packs[k] = other > one ? other : one;
         }
-        for (int l = 1; l < 8; ++l) sum[0] += sum[l];  // sees what comparisons do not
-        c.moved[k] = std::isfinite(sum[0]) ? moved : std::numeric_limits<double>::infinity();
-        c.size[k] = size;
+    std::memcpy(to, packs, sizeof(Pack));
+}
+
+template <class Register>
+inline void changesOf(const Changes& c) {
+    using Pack = typename Register::Pack;
+    constexpr int width = sizeof(Pack) / sizeof(double);
+    Pack defect{};
+    for (int first = 0; first < c.columns; first += width) {
+        Pack moved[width], size[width];
+        for (int k = 0; k < width; ++k) {
+            const double *now = c.now + (first + k) * c.rows, *before = c.before + (first + k) * c.rows;
+            const int rows = first + k < c.columns ? c.rows : 0;
+            Pack most{}, largest{};
+            for (int i = 0; i < rows; i += width) {
+                Pack a, b;
+                std::memcpy(&a, now + i, sizeof a);
+                std::memcpy(&b, before + i, sizeof b);
+                const Pack difference = a - b;
+                defect += difference - difference;
+                raise<Register>(most, difference);
+                raise<Register>(largest, a);
+                raise<Register>(largest, b);
+            }
+            moved[k] = most;
+            size[k] = largest;
+        }
+        largestOfEach<Register>(moved, c.moved + first);
+        largestOfEach<Register>(size, c.size + first);
+    }
+    *c.defect = 0;
+    for (int k = 0; k < width; ++k) *c.defect += defect[k];
+}
+
+/// factor of, with the last row repeated.
+void fill(Eigen::MatrixXd& to, double factor, const Eigen::MatrixXd& of) {
+    const Eigen::Index n = of.rows();
+    for (Eigen::Index j = 0; j < of.cols(); ++j) {
+        to.col(j).head(n) = factor * of.col(j);
+        to.col(j).tail(to.rows() - n).setConstant(to(n - 1, j));
     }
 }
-
-/// With the last row repeated.
-Eigen::MatrixXd padded(const Eigen::MatrixXd& of, Eigen::Index rows) {
-    Eigen::MatrixXd made = of.row(of.rows() - 1).replicate(rows, 1);
-    made.topRows(of.rows()) = of;
-    return made;
-}
+/// v_i, and beyond the end the last one.
+double entry(const Eigen::VectorXd& v, Eigen::Index i) { return v(std::min(i, v.size() - 1)); }
 
 }  // namespace
 
-PhaseLanes::PhaseLanes(const PhaseMechanics& mechanics, const PhaseCell& cell)
-    : H_(mechanics), sums_(nodeSums()) {
-    const Eigen::Index rows = (cell.nodes() + 7) / 8 * 8;
-    A_ = scaledA_ = padded(cell.A, rows);
-    B_ = scaledB_ = padded(cell.B, rows);
-    fromStart_ = padded(cell.fromStart, rows);
-    place_ = times_ = padded(cell.place, rows);
-    Q_ = P_ = Matrix::Zero(rows, d());
-    gradients_ = next_ = Matrix::Zero(rows, 2 * d());
-    moved_ = size_ = Eigen::VectorXd::Zero(2 * d());
+PhaseLanes::PhaseLanes(const PhaseMechanics& mechanics, const SharedCell& cell)
+    : H_(mechanics), cell_(cell), sums_(nodeSums()) {
+    const Eigen::Index rows = (cell->nodes() + 7) / 8 * 8, columns = 2 * d(), eights = (columns + 7) / 8 * 8;
+    A_ = B_ = Matrix::Zero(rows, cell->nodes());
+    fromStart_.resize(rows);
+    for (Eigen::Index i = 0; i < rows; ++i) fromStart_(i) = entry(cell->fromStart, i);
+    times_ = Eigen::VectorXd::Zero(rows);
+    places_ = gradients_ = next_ = Matrix::Zero(rows, columns);
+    moved_ = size_ = Eigen::VectorXd::Zero(eights);
 }
 
 void PhaseLanes::start(const Eigen::Ref<const Matrix>& K, const Eigen::Ref<const Matrix>& F) {
@@ -69,34 +123,32 @@ void PhaseLanes::start(const Eigen::Ref<const Matrix>& K, const Eigen::Ref<const
 
 void PhaseLanes::setStep(double h) {
     h_ = h;
-    scaledA_ = h * A_;
-    scaledB_ = -h * B_;
+    fill(A_, h, cell_->A);
+    fill(B_, -h, cell_->B);
 }
 
 double PhaseLanes::sweep(double t, double h, const double* q0, const double* p0) {
     if (h != h_) setStep(h);
-    const int n = static_cast<int>(A_.cols());
+    const int n = cell_->nodes(), size = rows() * d();
+    double *const Q = places_.data(), *const P = Q + size;
     for (int k = 0; k < d(); ++k) {
-        Q_.col(k).setConstant(q0[k]);
-        P_.col(k) = p0[k] * fromStart_;
+        std::fill_n(Q + k * rows(), rows(), q0[k]);
+        for (int i = 0; i < rows(); ++i) P[k * rows() + i] = p0[k] * fromStart_(i);
     }
-    sums_.product(
-        {scaledA_.data(), rows(), gradients_.col(d()).data(), rows(), Q_.data(), rows(), rows(), d(), n});
-    sums_.product({scaledB_.data(), rows(), gradients_.data(), rows(), P_.data(), rows(), rows(), d(), n});
-    if (H_.isTimeDependent)
-        times_ = (h * place_).array() + t;
-    else
-        times_.setConstant(t);
-    H_.gradients(H_.model.get(), times_.data(), rows(), Q_.data(), P_.data(), next_.data());
-    const double size = change(h, q0, p0);
+    sums_.product({A_.data(), rows(), gradients_.data() + size, rows(), Q, rows(), rows(), d(), n});
+    sums_.product({B_.data(), rows(), gradients_.data(), rows(), P, rows(), rows(), d(), n});
+    for (int i = 0; i < rows(); ++i) times_(i) = H_.isTimeDependent ? h * entry(cell_->place, i) + t : t;
+    H_.gradients(H_.model.get(), times_.data(), rows(), Q, P, next_.data());
+    const double worst = change(h, q0, p0);
     gradients_.swap(next_);
-    return size;
+    return worst;
 }
 
 double PhaseLanes::change(double h, const double* q0, const double* p0) {
-    static const auto measure = ForThisMachine<&changesOf>::call();
-    measure({rows(), 2 * d(), next_.data(), gradients_.data(), moved_.data(), size_.data()});
-    double worst = 0;
+    static const auto measure = ForThisMachine<&changesOf<Eight>, &changesOf<Four>, &changesOf<Two>>::call();
+    double defect = 0, worst = 0;
+    measure({rows(), 2 * d(), next_.data(), gradients_.data(), moved_.data(), size_.data(), &defect});
+    if (defect != 0) return std::numeric_limits<double>::infinity();
     for (int k = 0; k < 2 * d(); ++k)
         worst = std::max(worst, relativeCorrection(std::abs(h) * moved_(k), std::abs(h) * size_(k),
                                                    k < d() ? p0[k] : q0[k - d()]));

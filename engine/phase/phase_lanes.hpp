@@ -18,7 +18,7 @@ class PhaseLanes {
 public:
     using Matrix = Eigen::MatrixXd;
 
-    PhaseLanes(const PhaseMechanics& mechanics, const PhaseCell& cell);
+    PhaseLanes(const PhaseMechanics& mechanics, const SharedCell& cell);
 
     /// The rates from which sweeps go on: H_p and -H_q at the nodes, node i, coordinate k.
     void start(const Eigen::Ref<const Matrix>& K, const Eigen::Ref<const Matrix>& F);
@@ -35,12 +35,13 @@ private:
     double change(double h, const double* q0, const double* p0);
 
     PhaseMechanics H_;
+    SharedCell cell_;
     NodeSums sums_;
     double h_ = 0;
-    Matrix A_, B_, scaledA_, scaledB_;  ///< scaled: h A and -h B
-    Eigen::VectorXd fromStart_, place_, times_;
-    Matrix Q_, P_, gradients_, next_;
-    Eigen::VectorXd moved_, size_;  ///< by column of the gradients
+    Matrix A_, B_;  ///< h A and -h B
+    Eigen::VectorXd fromStart_, times_;
+    Matrix places_, gradients_, next_;  ///< places: q, then p
+    Eigen::VectorXd moved_, size_;      ///< by column of the gradients; in eights
 };
 
 }  // namespace extremal

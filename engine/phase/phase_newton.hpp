@@ -27,7 +27,7 @@ public:
     using Vector = Eigen::VectorXd;
     using Matrix = Eigen::MatrixXd;
 
-    PhaseNewton(const PhaseMechanics& mechanics, const PhaseCell& cell);
+    PhaseNewton(const PhaseMechanics& mechanics, const SharedCell& cell);
 
     /// The unknowns that K and F at the nodes make.
     void startFrom(double h, const Eigen::Ref<const Matrix>& K, const Eigen::Ref<const Matrix>& F);
@@ -45,7 +45,7 @@ public:
 
 private:
     int d() const { return H_.dimension; }
-    int size() const { return 2 * cell_.unknowns() * d(); }
+    int size() const { return 2 * cell_->unknowns() * d(); }
 
     void residual(double t, double h);
     void measure(double h, const Eigen::Ref<const Vector>& q0, const Eigen::Ref<const Vector>& p0,
@@ -55,7 +55,7 @@ private:
     void solveFor(double* x);
 
     PhaseMechanics H_;
-    PhaseCell cell_;
+    SharedCell cell_;
     Vector x_, r_;                ///< (alpha, beta - e_1 p_0), and the residual
     Matrix Q_, P_;                ///< coordinate k, node i
     std::vector<Matrix> second_;  ///< H'' at each node

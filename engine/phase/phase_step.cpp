@@ -68,17 +68,12 @@ class PhaseStep final : public Integrator {
     using View = Eigen::Map<Vector>;
 
 public:
-    PhaseStep(const PhaseMechanics& mechanics, const Table<double>& table, double step,
+    PhaseStep(const PhaseMechanics& mechanics, const SharedCell& cell, double step,
               const SolverPolicy& policy)
-        : H_(mechanics),
-          cell_(table),
-          newton_(mechanics, cell_),
-          policy_(policy),
-          tolerance_(toleranceOf<double>(policy)),
-          h_(step) {
-        const int n = cell_.nodes();
+        : H_(mechanics), cell_(cell), policy_(policy), tolerance_(toleranceOf<double>(policy)), h_(step) {
+        const int n = cell_->nodes();
         for (Nodes* nodes : {&K_, &F_, &newK_, &newF_, &Q_, &P_}) *nodes = Nodes::Zero(n, d());
-        if (cell_.ahead.size() > 0) guess_.emplace(cell_.ahead, d());
+        if (cell_->ahead.size() > 0) guess_.emplace(cell_->ahead, d());
         for (Vector* v : {&q0_, &p0_, &q1_, &p1_, &q_, &p_, &lostQ_, &lostP_}) *v = Vector::Zero(d());
         gradient_.assign(static_cast<std::size_t>(2 * d()), 0);
         if (H_.gradients && n > 2) lanes_.emplace(H_, cell_);
@@ -130,13 +125,13 @@ public:
             p = tau <= 0 ? p0_ : p1_;
             return;
         }
-        insideOf(here(), cell_, tau, x.data());
+        insideOf(here(), *cell_, tau, x.data());
     }
 
     std::size_t tangentSize() const override { return static_cast<std::size_t>(2 * d()); }
     bool applyTangent(std::span<double> W) override {
         placeNodes();
-        return newton_.applyTangent(start_, h_, Q_, P_, W);
+        return newton().applyTangent(start_, h_, Q_, P_, W);
     }
 
     /// S of the last step.
@@ -144,7 +139,7 @@ public:
         static const Quantity action{"action", "", "S", ""};
         return {&action, 1};
     }
-    void measure(const State&, double* values) const override { values[0] = actionOf(here(), cell_, H_); }
+    void measure(const State&, double* values) const override { values[0] = actionOf(here(), *cell_, H_); }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<PhaseStep>(*this); }
     bool checkpoint(Archive& archive) override {
@@ -155,6 +150,7 @@ public:
 
 private:
     int d() const { return H_.dimension; }
+    PhaseNewton& newton() { return newton_ ? *newton_ : newton_.emplace(H_, cell_); }
     StepAt here() const {
         return {start_,
                 h_,
@@ -200,17 +196,17 @@ private:
     }
     /// q and p at the nodes, from K and F.
     void placeNodes() {
-        Q_.noalias() = cell_.A.lazyProduct(K_);
+        Q_.noalias() = cell_->A.lazyProduct(K_);
         for (int k = 0; k < d(); ++k) Q_.col(k) = (h_ * Q_.col(k)).array() + q0_(k);
-        P_.noalias() = cell_.B.lazyProduct(F_);
-        for (int k = 0; k < d(); ++k) P_.col(k) = h_ * P_.col(k) + p0_(k) * cell_.fromStart;
+        P_.noalias() = cell_->B.lazyProduct(F_);
+        for (int k = 0; k < d(); ++k) P_.col(k) = h_ * P_.col(k) + p0_(k) * cell_->fromStart;
     }
     /// newK and newF at the nodes as they are placed.
     void evaluateNodes() {
-        for (int i = 0; i < cell_.nodes(); ++i) {
+        for (int i = 0; i < cell_->nodes(); ++i) {
             q_ = Q_.row(i).transpose();
             p_ = P_.row(i).transpose();
-            evaluate(start_ + cell_.place(i) * h_, q_, p_);
+            evaluate(start_ + cell_->place(i) * h_, q_, p_);
             for (int k = 0; k < d(); ++k) {
                 newF_(i, k) = -gradient_[static_cast<std::size_t>(k)];
                 newK_(i, k) = gradient_[static_cast<std::size_t>(d() + k)];
@@ -221,7 +217,7 @@ private:
     /// Gives what it has changed, each coordinate against its own increments and the round-off of its value.
     double sweep() {
         if (lanes_) {
-            report_.cost.evaluations += cell_.nodes();
+            report_.cost.evaluations += cell_->nodes();
             return lanes_->sweep(start_, h_, q0_.data(), p0_.data());
         }
         K_.swap(newK_);
@@ -236,7 +232,7 @@ private:
         using Verdict = FixedPointPolicy<double>::Verdict;
         // Sweeps. A matrix of few unknowns is cheap, whatever a sweep costs.
         constexpr int most = 200, worthTogether = 60, worthElse = 21, fewUnknowns = 16;
-        const bool isMatrixDear = lanes_ && cell_.nodes() * d() > fewUnknowns;
+        const bool isMatrixDear = lanes_ && cell_->nodes() * d() > fewUnknowns;
         FixedPointPolicy<double> policy(tolerance_, isMatrixDear ? worthTogether : worthElse);
         if (lanes_) lanes_->start(newK_, newF_);
         for (int k = 0; k < most; ++k) {
@@ -276,28 +272,28 @@ private:
         const auto attempt = [&](double h, bool isFresh) {
             if (isFresh) {
                 startFresh();
-                newton_.startFrom(h, newK_, newF_);
+                newton().startFrom(h, newK_, newF_);
             }
-            return newton_.solve(start_, h, q0_, p0_, tolerance_, policy_.maxIterations, stop(), report_);
+            return newton().solve(start_, h, q0_, p0_, tolerance_, policy_.maxIterations, stop(), report_);
         };
         Outcome result = Outcome::diverged;
-        if (isContinued && cell_.ahead.size() > 0) {
-            newK_.noalias() = cell_.ahead.lazyProduct(K_);
-            newF_.noalias() = cell_.ahead.lazyProduct(F_);
-            newton_.startFrom(h_, newK_, newF_);
+        if (isContinued && cell_->ahead.size() > 0) {
+            newK_.noalias() = cell_->ahead.lazyProduct(K_);
+            newF_.noalias() = cell_->ahead.lazyProduct(F_);
+            newton().startFrom(h_, newK_, newF_);
             result = attempt(h_, false);
         }
         if (result != Outcome::converged && result != Outcome::stopped) result = attempt(h_, true);
         if (result != Outcome::converged && result != Outcome::stopped) {
             StepContinuation<double> continuation;
-            const bool hasArrived = continuation.follow(newton_.unknowns(), [&](double part, bool isFresh) {
+            const bool hasArrived = continuation.follow(newton().unknowns(), [&](double part, bool isFresh) {
                 return !stop().stop_requested() && attempt(part * h_, isFresh) == Outcome::converged;
             });
             if (hasArrived) result = Outcome::converged;
         }
         if (stop().stop_requested() && result != Outcome::converged) return Outcome::stopped;
         if (result != Outcome::converged) return result;
-        newton_.place(q0_, p0_, Q_, P_);
+        newton().place(q0_, p0_, Q_, P_);
         evaluateNodes();
         K_.swap(newK_);
         F_.swap(newF_);
@@ -308,7 +304,7 @@ private:
     void finish() {
         if (guess_) guess_->learn(K_, F_);
         for (int k = 0; k < d(); ++k) {
-            const double q = cell_.endRates.dot(K_.col(k)), p = cell_.weight.dot(F_.col(k));
+            const double q = cell_->endRates.dot(K_.col(k)), p = cell_->weight.dot(F_.col(k));
             q1_(k) = addExactly(q0_(k), h_ * q + lostQ_(k), lostQ_(k));
             p1_(k) = addExactly(p0_(k), h_ * p + lostP_(k), lostP_(k));
         }
@@ -317,8 +313,8 @@ private:
     }
 
     PhaseMechanics H_;
-    PhaseCell cell_;
-    PhaseNewton newton_;
+    SharedCell cell_;
+    std::optional<PhaseNewton> newton_;  ///< made when it is needed
     SolverPolicy policy_;
     double tolerance_, h_;
     Nodes K_, F_, newK_, newF_;  ///< H_p and -H_q at the nodes
@@ -335,10 +331,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makePhaseStep(const PhaseMechanics& mechanics, const Table<double>& table,
+std::unique_ptr<Integrator> makePhaseStep(const PhaseMechanics& mechanics, const SharedCell& cell,
                                           double step, const SolverPolicy& policy) {
     return withDimension(mechanics.dimension, [&](auto d) -> std::unique_ptr<Integrator> {
-        return std::make_unique<PhaseStep<decltype(d)::value>>(mechanics, table, step, policy);
+        return std::make_unique<PhaseStep<decltype(d)::value>>(mechanics, cell, step, policy);
     });
 }
 

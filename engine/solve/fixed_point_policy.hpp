@@ -84,9 +84,13 @@ private:
     /// More sweeps from round-off than Newton's method is worth.
     bool isFar(const T& size) const {
         const T ratio = size / earlier_[2];  // of three sweeps
+        const T near = tolerance_ > epsilon ? tolerance_ : epsilon;
         T then = size;
-        for (int sweeps = 3; sweeps <= worth_; sweeps += 3) then *= ratio;
-        return then > (tolerance_ > epsilon ? tolerance_ : epsilon);
+        for (int sweeps = 3; sweeps <= worth_; sweeps += 3) {
+            then *= ratio;
+            if (then <= near && ratio < T(1)) return false;  // and would be with all of them
+        }
+        return then > near;
     }
 
     T tolerance_;

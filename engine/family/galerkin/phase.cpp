@@ -50,12 +50,12 @@ Properties describePhase(const Discretization& d, const System& system,
 }
 
 std::unique_ptr<Integrator> phaseStep(const System& system, const Discretization& d, double step) {
-    const Table<double> table = tableOf(d.space, d.quadrature);
+    const SharedCell cell = cellOf(d.space, d.quadrature);
     const SolverPolicy policy = solverPolicy(d.solver, system);
     if (const OneForm* const form = system.parts.find<OneForm>(); form && form->hasPlane())
-        return makeOneFormStep(*form, table, step, policy);
-    if (isFirstOrder(system)) return makeFieldStep(firstOrderOf(system), table, step, policy);
-    return makeFlowStep(system.part<PhaseMechanics>(), table, step, policy);
+        return makeOneFormStep(*form, cell, step, policy);
+    if (isFirstOrder(system)) return makeFieldStep(firstOrderOf(system), cell, step, policy);
+    return makeFlowStep(system.part<PhaseMechanics>(), cell, step, policy);
 }
 
 WrittenAction writtenPhase(const System& system) {

@@ -141,7 +141,7 @@ std::unique_ptr<Integrator> makeSlowStep(const System& system, const Discretizat
                                          const SolverPolicy& policy) {
     const SlowModel* const model = findSlowModel(system, d.space.text("model"));
     if (!model) throw InvalidScene("/space/model", slowMismatch(d.space, system));
-    return slowStep(*model, tableOf(polynomials(d.space), d.quadrature), step, policy);
+    return slowStep(*model, cellOf(polynomials(d.space), d.quadrature), step, policy);
 }
 
 Discretization slowScheme(const char* model, int degree) {

@@ -14,12 +14,12 @@ namespace {
 
 class SlowStep final : public Integrator {
 public:
-    SlowStep(const SlowModel& model, const Table<double>& table, double step, const SolverPolicy& policy)
-        : model_(model), table_(table), policy_(policy), h_(step) {}
+    SlowStep(const SlowModel& model, const SharedCell& cell, double step, const SolverPolicy& policy)
+        : model_(model), cell_(cell), policy_(policy), h_(step) {}
     SlowStep(const SlowStep& other)
         : Integrator(other),
           model_(other.model_),
-          table_(other.table_),
+          cell_(other.cell_),
           policy_(other.policy_),
           h_(other.h_),
           start_(other.start_),
@@ -88,7 +88,7 @@ public:
 
 private:
     void makeInner(const std::vector<double>& y) {
-        inner_ = makeFlowStep(model_.hamiltonian(y.data()), table_, h_, policy_);
+        inner_ = makeFlowStep(model_.hamiltonian(y.data()), cell_, h_, policy_);
         constants_.assign(y.begin() + model_.constantsFrom, y.end());
         motion_.x.assign(y.begin(), y.begin() + 2 * model_.dimension);
         motion_.memory.clear();
@@ -96,7 +96,7 @@ private:
     }
 
     SlowModel model_;
-    Table<double> table_;
+    SharedCell cell_;
     SolverPolicy policy_;
     double h_, start_ = 0;
     std::vector<double> constants_;  ///< that inner_ was made for
@@ -107,9 +107,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> slowStep(const SlowModel& model, const Table<double>& table, double step,
+std::unique_ptr<Integrator> slowStep(const SlowModel& model, const SharedCell& cell, double step,
                                      const SolverPolicy& policy) {
-    return std::make_unique<SlowStep>(model, table, step, policy);
+    return std::make_unique<SlowStep>(model, cell, step, policy);
 }
 
 }  // namespace extremal

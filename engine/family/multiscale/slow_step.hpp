@@ -8,15 +8,15 @@
 
 #include <memory>
 
-#include "engine/action/table.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/slow/slow_models.hpp"
+#include "engine/phase/phase_cell.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
 
-/// `table` must not change with the step.
-std::unique_ptr<Integrator> slowStep(const SlowModel& model, const Table<double>& table, double step,
+/// `cell` of a table that does not change with the step.
+std::unique_ptr<Integrator> slowStep(const SlowModel& model, const SharedCell& cell, double step,
                                      const SolverPolicy& policy);
 
 }  // namespace extremal
