@@ -42,12 +42,9 @@ public:
         for (std::size_t i = 0, k = 0; i < n; ++i)
             for (std::size_t j = 0; j <= i; ++j, ++k) hessian[i * n + j] = hessian[j * n + i] = lower[k];
     }
-    bool hasNodes() const override {
-        constexpr int few = 16;  // as for gradients of H
-        return dimension_ <= few;
-    }
-    void evaluateNodes(int nodes, const double* x, double* values, double* gradients) const override {
-        function_.evaluateNodes(nodes, x, values, gradients);
+    std::optional<typed::GraphFunction> addTo(typed::Graph& to,
+                                              const std::vector<int>& variables) const override {
+        return function_.addTo(to, variables);
     }
 
 private:
@@ -204,15 +201,14 @@ public:
             for (int k = 0; k < n_; ++k) gradient[k] *= first;
         *value = bounded(*value);
     }
-    bool hasNodes() const override { return monitor_->hasNodes(); }
-    void evaluateNodes(int nodes, const double* x, double* values, double* gradients) const override {
-        monitor_->evaluateNodes(nodes, x, values, gradients);
-        for (int k = 0; k < n_; ++k)
-            for (int i = 0; i < nodes; ++i) {
-                const double share = 1 / (1 + values[i] / most_);
-                gradients[k * nodes + i] *= share * share;
-            }
-        std::transform(values, values + nodes, values, [this](double g) { return bounded(g); });
+    std::optional<typed::GraphFunction> addTo(typed::Graph& to,
+                                              const std::vector<int>& variables) const override {
+        std::optional<typed::GraphFunction> g = monitor_->addTo(to, variables);
+        if (!g) return {};
+        const int ofShare = to.sum(1, {{g->value, 1 / most_}});  // 1/share
+        g->value = to.product({{g->value}, {ofShare, -1}});
+        for (int& slope : g->gradient) slope = to.product({{slope}, {ofShare, -2}});
+        return g;
     }
 
 private:

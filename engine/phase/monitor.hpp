@@ -16,12 +16,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/core/catalog.hpp"
 #include "engine/core/settings.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/model/system.hpp"
+#include "engine/model/typed/graph.hpp"
 
 namespace extremal {
 
@@ -34,12 +36,11 @@ public:
     virtual void evaluate(const double* q, const double* p, double* value, double* gradient,
                           double* hessian) const = 0;
     virtual bool hasHessian() const { return true; }
-    /// Whether it is known at many nodes together.
-    virtual bool hasNodes() const { return false; }
-    /// Of one that is: g and its gradient, entry k of node i at k * nodes + i, likewise (q, p) in x; `nodes`
-    /// is a multiple of 8.
-    virtual void evaluateNodes(int /*nodes*/, const double* /*x*/, double* /*values*/,
-                               double* /*gradients*/) const {}
+    /// Adds g to a graph, with these nodes for q, then p; nothing where it is no formula.
+    virtual std::optional<typed::GraphFunction> addTo(typed::Graph& /*to*/,
+                                                      const std::vector<int>& /*variables*/) const {
+        return {};
+    }
     double operator()(const double* q, const double* p) const {
         double value = 0;
         evaluate(q, p, &value, nullptr, nullptr);

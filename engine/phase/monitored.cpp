@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/algebra/small_product.hpp"
 #include "engine/core/own_buffers.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
-#include "engine/model/parts/node_energies.hpp"
+#include "engine/model/parts/energy_formula.hpp"
+#include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/phase/flow_jacobian.hpp"
 
 namespace extremal {
@@ -77,7 +77,7 @@ void legendreGradients(const void* model, const double* t, int nodes, const doub
 
 struct MonitoredModel {
     PhaseMechanics H;
-    NodeEnergies energies;  ///< empty: not together
+    typed::NodeTape slopes;  ///< of K, where it is a formula
     std::shared_ptr<const Monitor> monitor;
     long long id;
 };
@@ -87,16 +87,8 @@ struct MonitoredRoom {
           monitorSlope(slope),
           hessian(Matrix::Zero(slope.size(), slope.size())),
           monitorHessian(hessian) {}
-    /// For so many nodes.
-    void setNodes(int nodes) {
-        if (energies.size() == nodes) return;
-        x = slopes = monitorSlopes = Matrix::Zero(nodes, slope.size());
-        values = energies = Vector::Zero(nodes);
-    }
     Vector slope, monitorSlope;
     Matrix hessian, monitorHessian;
-    Matrix x, slopes, monitorSlopes;  ///< node i, (q, p)
-    Vector values, energies;
 };
 
 const MonitoredModel& monitored(const void* model) { return *static_cast<const MonitoredModel*>(model); }
@@ -121,25 +113,27 @@ void monitoredGradient(const void* model, double, const double* q, const double*
         gradient[d + 2 + k] = g * own.slope(d + k) + off * own.monitorSlope(d + k);
     }
 }
-void monitoredGradients(const void* model, const double* t, int nodes, const double* q, const double* p,
+void monitoredGradients(const void* model, const double*, int nodes, const double* q, const double* p,
                         double* gradients) {
-    static const auto combine = nodeSums().combine;
-    const MonitoredModel& m = monitored(model);
-    const int d = m.H.dimension;
-    MonitoredRoom& own = monitoredRoom(m);
-    own.setNodes(nodes);
-    double *const places = own.x.data(), *const momenta = places + d * nodes;
-    std::copy_n(q + nodes, d * nodes, places);
-    std::copy_n(p + nodes, d * nodes, momenta);
-    m.monitor->evaluateNodes(nodes, places, own.values.data(), own.monitorSlopes.data());
-    m.H.gradients(m.H.model.get(), t, nodes, places, momenta, own.slopes.data());
-    m.energies.energies(m.energies.model.get(), t, nodes, places, momenta, own.energies.data());
-    own.energies += Eigen::Map<const Vector>(p, nodes);  // off H_0
-    std::fill_n(gradients, nodes, 0.0);
-    std::copy_n(own.values.data(), nodes, gradients + (d + 1) * nodes);
-    for (int k = 0; k < 2 * d; ++k)
-        combine(own.values.data(), own.slopes.col(k).data(), own.energies.data(),
-                own.monitorSlopes.col(k).data(), gradients + (k < d ? 1 + k : 2 + k) * nodes, nodes);
+    monitored(model).slopes.evaluate(nodes, q, p, gradients);
+}
+/// The gradient of K as formulas, in which H and g share what they have in common.
+std::optional<typed::NodeTape> slopesOf(const EnergyFormula& energy, const Monitor& monitor, int d) {
+    typed::Graph graph;
+    std::vector<int> variables;
+    for (const int first : {1, d + 2})
+        for (int k = 0; k < d; ++k) variables.push_back(graph.symbol(first + k));
+    const auto g = monitor.addTo(graph, variables);
+    const auto H = g ? energy.addTo(graph, variables) : std::nullopt;
+    if (!H) return {};
+    const int off = graph.sum(0, {{H->value}, {graph.symbol(d + 1)}});
+    std::vector<int> roots;
+    for (std::size_t k = 0; k < H->gradient.size(); ++k)
+        roots.push_back(graph.sum(0, {{graph.product({{g->value}, {H->gradient[k]}})},
+                                      {graph.product({{off}, {g->gradient[k]}})}}));
+    roots.insert(roots.begin() + d, g->value);
+    roots.insert(roots.begin(), graph.number(0));
+    return typed::NodeTape(graph, roots, d + 1);
 }
 void monitoredHessian(const void* model, double, const double* q, const double* p, double* hessian) {
     const MonitoredModel& m = monitored(model);
@@ -235,13 +229,14 @@ MonitoredProblem monitoredProblem(const System& system, const Settings& monitor,
     }
     PhaseMechanics K;
     K.dimension = d + 1;
-    const NodeEnergies* const energies = system.parts.find<NodeEnergies>();
+    constexpr int few = 16;  // as for gradients of H
+    const auto* const energy = system.parts.find<EnergyFormula>();
     const auto* const own = system.parts.find<PhaseMechanics>();
-    const bool isOfSystem = energies && energies->of == (own ? own->model : system.mechanics().model);
-    const bool isTogether = isOfSystem && H.gradients && g->hasNodes();
-    if (isTogether) K.gradients = monitoredGradients;
+    const bool isOfSystem = energy && energy->of == (own ? own->model : system.mechanics().model);
+    auto slopes = isOfSystem && d <= few ? slopesOf(*energy, *g, d) : std::nullopt;
+    if (slopes) K.gradients = monitoredGradients;
     K.model = std::make_shared<const MonitoredModel>(
-        MonitoredModel{H, isTogether ? *energies : NodeEnergies{}, g, nextModelId()});
+        MonitoredModel{H, slopes ? *std::move(slopes) : typed::NodeTape(), g, nextModelId()});
     K.energy = monitoredEnergy;
     K.gradient = monitoredGradient;
     K.hessian = monitoredHessian;

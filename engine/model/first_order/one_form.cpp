@@ -9,11 +9,10 @@
 #include <utility>
 
 #include "engine/core/algebra/dense.hpp"
-#include "engine/core/algebra/instruction_set.hpp"
-#include "engine/core/algebra/lanes.hpp"
 #include "engine/core/algebra/lu.hpp"
 #include "engine/core/corrections.hpp"
 #include "engine/core/own_buffers.hpp"
+#include "engine/model/typed/tape/node_tape.hpp"
 
 namespace extremal {
 namespace {
@@ -232,44 +231,9 @@ void canonicalHessian(const void* model, double, const double* q, const double* 
         std::fill_n(hessian, n * n, std::numeric_limits<double>::quiet_NaN());
 }
 
-constexpr int mostTogether = 32;  // variables whose derivatives at eight nodes fit on the stack
-
-/// to += factor M from, or M^T, at eight nodes.
-void addProduct(const Eigen::MatrixXd& M, bool isTransposed, double factor, const Lanes* from, Lanes* to) {
-    const int n = static_cast<int>(M.rows());
-    for (int k = 0; k < n; ++k)
-        for (int j = 0; j < n; ++j)
-            if (const double entry = isTransposed ? M(j, k) : M(k, j); entry != 0)
-                to[k] += Lanes(factor * entry) * from[j];
-}
-
-/// Of an affine form: y = A^{-1} (p - c - B q), V = A^{-T} H_y and H_q - B^T V.
-void affineGradients(const void* model, const double*, int nodes, const double* q, const double* p,
-                     double* gradients) {
-    const auto& [of, affine, id] = *static_cast<const FormFlow*>(model);
-    const int n = static_cast<int>(of.places.size());
-    Lanes x[mostTogether], slope[mostTogether];
-    for (int i = 0; i < nodes; i += 8) {
-        Lanes places[mostTogether / 2], rest[mostTogether / 2], y[mostTogether / 2], V[mostTogether / 2];
-        for (int k = 0; k < n; ++k) {
-            places[k] = x[at(of.places, k)] = Lanes::load(q + k * nodes + i);
-            rest[k] = Lanes::load(p + k * nodes + i) - Lanes(affine->constant(k));
-        }
-        addProduct(affine->ofPlaces, false, -1, places, rest);
-        addProduct(affine->toFree, false, 1, rest, y);
-        for (int k = 0; k < n; ++k) x[at(of.free, k)] = y[k];
-        of.gradients(of.model.get(), 8, x->lane.data(), slope->lane.data());
-        for (int k = 0; k < n; ++k) {
-            places[k] = slope[at(of.places, k)];
-            rest[k] = slope[at(of.free, k)];
-        }
-        addProduct(affine->toFree, true, 1, rest, V);
-        addProduct(affine->ofPlaces, true, -1, V, places);
-        for (int k = 0; k < n; ++k) {
-            places[k].store(gradients + k * nodes + i);
-            V[k].store(gradients + (n + k) * nodes + i);
-        }
-    }
+void canonicalGradients(const void* model, const double*, int nodes, const double* q, const double* p,
+                        double* gradients) {
+    static_cast<const FormFlow*>(model)->of.together->evaluate(nodes, q, p, gradients);
 }
 
 }  // namespace
@@ -329,13 +293,52 @@ PhaseMechanics canonicalOf(const OneForm& of) {
     made.dimension = static_cast<int>(of.places.size());
     std::optional<AffineMomenta> affine;
     if (of.isAffine) affine.emplace(of);
-    if (affine && of.gradients && of.variables <= mostTogether)
-        made.gradients = ForThisMachine<&affineGradients>::call();
+    if (affine && of.together) made.gradients = canonicalGradients;
     made.model = std::make_shared<const FormFlow>(FormFlow{of, std::move(affine), nextModelId()});
     made.energy = canonicalEnergy;
     made.gradient = canonicalGradient;
     made.hessian = canonicalHessian;
     return made;
+}
+
+std::shared_ptr<const typed::NodeTape> canonicalTape(
+    const OneForm& of,
+    const std::function<typed::GraphFunction(typed::Graph& to, const std::vector<int>& variables)>& energy) {
+    constexpr int few = 32;  // more of them fill the registers of one node alone
+    if (!of.isAffine || of.variables > few) return nullptr;
+    const AffineMomenta P(of);
+    const int n = static_cast<int>(of.places.size());
+    typed::Graph graph;
+    std::vector<typed::Graph::Operand> terms;
+    // y = A^{-1} (p - c - B q)
+    std::vector<int> x(static_cast<std::size_t>(of.variables)), rest, roots;
+    for (int j = 0; j < n; ++j) {
+        terms = {{graph.symbol(n + j)}};
+        for (int k = 0; k < n; ++k) terms.push_back({graph.symbol(k), -P.ofPlaces(j, k)});
+        rest.push_back(graph.sum(-P.constant(j), terms));
+        x[static_cast<std::size_t>(at(of.places, j))] = graph.symbol(j);
+    }
+    const auto sum = [&](int start, const auto& factor, const std::vector<int>& nodes) {
+        terms.clear();
+        if (start >= 0) terms.push_back({start});
+        for (int k = 0; k < n; ++k) terms.push_back({at(nodes, k), factor(k)});
+        return graph.sum(0, terms);
+    };
+    for (int j = 0; j < n; ++j)
+        x[static_cast<std::size_t>(at(of.free, j))] = sum(
+            -1, [&](int k) { return P.toFree(j, k); }, rest);
+    // V = A^{-T} H_y, and H_q - B^T V
+    const std::vector<int> slope = energy(graph, x).gradient;
+    std::vector<int> ofFree, V;
+    for (int j = 0; j < n; ++j) ofFree.push_back(at(slope, at(of.free, j)));
+    for (int j = 0; j < n; ++j)
+        V.push_back(sum(
+            -1, [&](int k) { return P.toFree(k, j); }, ofFree));
+    for (int j = 0; j < n; ++j)
+        roots.push_back(sum(
+            at(slope, at(of.places, j)), [&](int k) { return -P.ofPlaces(k, j); }, V));
+    roots.insert(roots.end(), V.begin(), V.end());
+    return std::make_shared<const typed::NodeTape>(graph, roots, n);
 }
 
 void setGuess(const PhaseMechanics& canonical, const double* y) {

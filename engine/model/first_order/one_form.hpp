@@ -11,13 +11,18 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "engine/model/first_order/first_order.hpp"
 #include "engine/model/parts.hpp"
 #include "engine/model/phase_mechanics.hpp"
+#include "engine/model/typed/graph.hpp"
 
+namespace extremal::typed {
+class NodeTape;
+}
 namespace extremal {
 
 struct OneForm {
@@ -30,9 +35,8 @@ struct OneForm {
     void (*form)(const void*, const double* x, double* theta, double* slopes, double* curvatures) = nullptr;
     /// Likewise.
     void (*energy)(const void*, const double* x, double* value, double* gradient, double* hessian) = nullptr;
-    /// Gradients of H at many nodes together, where the system offers it (null else): entry k of node i at
-    /// k * nodes + i, likewise x; `nodes` is a multiple of 8.
-    void (*gradients)(const void*, int nodes, const double* x, double* gradients) = nullptr;
+    /// The gradient of canonicalOf() as formulas, where it is known (null else).
+    std::shared_ptr<const typed::NodeTape> together;
 
     std::vector<int> places, free;  ///< q and y
     /// First argument of `form` for theta - d chi, in which y has no velocity; null where theta is so itself.
@@ -65,12 +69,16 @@ FirstOrder firstOrderOf(const OneForm& of);
 
 /// The Hamiltonian of (q, p), p = P(q, y), of a form with a plane: H(q, Y(q, p)), where Y is found by
 /// Newton's method from the place that this thread has been told last. Not a number where it finds none. Of
-/// an affine P, as of point vortices, Y is affine too and known at once, and gradients at many nodes are
-/// those of H.
+/// an affine P, as of point vortices, Y is affine too and known at once.
 ///
 /// With F = H - P . V stationary in y and V, d H~/dp = V, d H~/dq = F_q, and the Hessian is the Schur
 /// complement of that of F: P_y is inverted, and no formula for Y is needed.
 PhaseMechanics canonicalOf(const OneForm& of);
+/// Its gradient as formulas, of an affine form of few variables; `energy` adds H to a graph, with these nodes
+/// for x. Null for others.
+std::shared_ptr<const typed::NodeTape> canonicalTape(
+    const OneForm& of,
+    const std::function<typed::GraphFunction(typed::Graph& to, const std::vector<int>& variables)>& energy);
 /// Where Newton's method begins on this thread, for what canonicalOf() has made: y of a state near by.
 void setGuess(const PhaseMechanics& canonical, const double* y);
 /// Y(q, p); false where it is not found.

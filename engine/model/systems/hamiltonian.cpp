@@ -12,6 +12,7 @@
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/phase/typed_hamiltonian.hpp"
+#include "engine/model/typed/typed_energy.hpp"
 #include "engine/model/typed/typed_picture.hpp"
 #include "engine/model/typed/typeset.hpp"
 
@@ -56,7 +57,7 @@ System makeHamiltonian(const Settings& settings) {
     for (const std::string& name : coordinates.coordinates)
         s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
     setMotion(s, made.mechanics);
-    s.parts.set(made.energies);
+    s.parts.set(typed::energyOfHamiltonian(formula, made.mechanics.model));
     if (auto held = heldBodiesIn(flowOf(made.mechanics))) s.parts.set(*std::move(held));
     for (const int i : made.cyclic) {
         const auto k = static_cast<std::size_t>(i);

@@ -8,7 +8,7 @@
 #include "engine/model/orbit/held_bodies.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/parts/typed_parts.hpp"
-#include "engine/model/typed/typed_energies.hpp"
+#include "engine/model/typed/typed_energy.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typed_picture.hpp"
@@ -30,7 +30,7 @@ System makeLagrangian(const Settings& given) {
         s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
     s.parts.set(std::move(made.mechanics));
     s.parts.set(typed::entriesOf(s.mechanics()));
-    if (auto energies = typed::nodeEnergiesOf(s.mechanics())) s.parts.set(*std::move(energies));
+    if (auto energy = typed::energyOfLagrangian(formula, s.mechanics())) s.parts.set(*std::move(energy));
     if (auto held = heldBodiesIn(s.mechanics())) s.parts.set(*std::move(held));
     if (auto constraint = typed::constraintOf(settings, formula)) s.parts.set(*std::move(constraint));
     if (auto force = typed::forceOf(settings, formula)) s.parts.set(*std::move(force));

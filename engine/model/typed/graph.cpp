@@ -213,6 +213,14 @@ int Graph::lookUp(std::shared_ptr<const Interpolant> table, int order, int a) {
 std::vector<int> Graph::adopt(const Graph& from, const std::vector<int>& roots,
                               const std::function<std::optional<double>(int)>& valueOf,
                               const std::function<int(int)>& rename) {
+    return insert(from, roots, [&](int own) {
+        const std::optional<double> value = valueOf(own);
+        return value ? number(*value) : symbol(rename ? rename(own) : own);
+    });
+}
+
+std::vector<int> Graph::insert(const Graph& from, const std::vector<int>& roots,
+                               const std::function<int(int)>& nodeOf) {
     // Operands come before what uses them, so one pass over what the roots need is enough.
     std::vector<char> isNeeded(static_cast<std::size_t>(from.size()), 0);
     for (const int root : roots) isNeeded[static_cast<std::size_t>(root)] = 1;
@@ -230,11 +238,9 @@ std::vector<int> Graph::adopt(const Graph& from, const std::vector<int>& roots,
             case Kind::number:
                 made = number(node.number);
                 break;
-            case Kind::symbol: {
-                const std::optional<double> value = valueOf(node.symbol);
-                made = value ? number(*value) : symbol(rename ? rename(node.symbol) : node.symbol);
+            case Kind::symbol:
+                made = nodeOf(node.symbol);
                 break;
-            }
             case Kind::sum:
                 made = sum(node.number, operands);
                 break;

@@ -112,6 +112,9 @@ public:
     std::vector<int> adopt(const Graph& from, const std::vector<int>& roots,
                            const std::function<std::optional<double>(int symbol)>& valueOf,
                            const std::function<int(int symbol)>& rename = {});
+    /// Makes them here with these nodes in place of the symbols.
+    std::vector<int> insert(const Graph& from, const std::vector<int>& roots,
+                            const std::function<int(int symbol)>& nodeOf);
 
     /// Whether any of the roots depends on a symbol that the predicate picks.
     bool dependsOn(const std::vector<int>& roots, const std::function<bool(int symbol)>& picks) const;
@@ -126,6 +129,12 @@ private:
 
     std::vector<Node> nodes_;
     std::unordered_multimap<std::uint64_t, int> known_;
+};
+
+/// The nodes of a function and of its gradient in some variables.
+struct GraphFunction {
+    int value = 0;
+    std::vector<int> gradient;
 };
 
 }  // namespace extremal::typed

@@ -2,15 +2,16 @@
 #include "engine/model/typed/typed_function.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <span>
+#include <array>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
 
-#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/invalid_text.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/symbolic.hpp"
-#include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/model/typed/tape/tape_registers.hpp"
 
 namespace extremal::typed {
@@ -31,22 +32,31 @@ void checkNames(const std::string& text, const Formula& formula) {
     }
 }
 
-/// `tape`: the gradient, behind f where there are `values`.
-void outputsOfNodes(const Tape& tape, int nodes, const double* y, double* values, double* gradients) {
-    const int variables = static_cast<int>(tape.inputs());
-    for (int i = 0; i < nodes; i += 8)
-        runEight(
-            tape,
-            [&](Lanes* r) {
-                for (int k = 0; k < variables; ++k) r[k] = Lanes::load(y + k * nodes + i);
-            },
-            [&](std::size_t output, const Lanes& value) {
-                const int k = static_cast<int>(output) - (values ? 1 : 0);
-                value.store((k < 0 ? values : gradients + k * nodes) + i);
-            });
-}
-
 }  // namespace
+
+/// With parameters as symbols, and the tapes that were asked for with their values in place.
+struct TypedFunction::Derivatives {
+    std::shared_ptr<const SymbolicLagrangian> symbolic;
+    int variables = 0, firstParameter = 0;
+    std::vector<double> parameters;
+    std::mutex guard;
+    std::array<Tape, 3> tapes;
+    std::array<std::atomic<bool>, 3> isMade{};
+
+    /// f, its gradient, the lower triangle of its Hessian.
+    std::vector<int> insertIn(Graph& to, Extent extent, const std::function<int(int)>& variableOf) const {
+        std::vector<int> roots{symbolic->value};
+        const auto add = [&](const std::vector<int>& from, int count) {
+            roots.insert(roots.end(), from.begin(), from.begin() + count);
+        };
+        if (extent != Extent::value) add(symbolic->gradient, variables);
+        if (extent == Extent::hessian) add(symbolic->hessian, variables * (variables + 1) / 2);
+        return to.insert(symbolic->graph, roots, [&](int symbol) {
+            const int k = symbol - firstParameter;
+            return k < 0 ? variableOf(symbol) : to.number(parameters[static_cast<std::size_t>(k)]);
+        });
+    }
+};
 
 TypedFunction::TypedFunction(const std::string& text, const std::string& pointer,
                              std::vector<std::string> variables,
@@ -67,41 +77,51 @@ TypedFunction::TypedFunction(const std::string& text, const std::string& pointer
 TypedFunction::TypedFunction(const Formula& formula) : variables_(formula.dimension()) { compile(formula); }
 
 void TypedFunction::compile(const Formula& formula) {
-    const auto symbolic = differentiate(formula);
-    const int d = variables_;
-    std::vector<int> roots{symbolic->value};
-    roots.insert(roots.end(), symbolic->gradient.begin(), symbolic->gradient.begin() + d);
-    roots.insert(roots.end(), symbolic->hessian.begin(), symbolic->hessian.begin() + d * (d + 1) / 2);
+    made_ = std::make_shared<Derivatives>();
+    made_->symbolic = differentiate(formula);
+    made_->variables = variables_;
+    made_->firstParameter = formula.firstParameter();
+    for (const auto& [name, value] : formula.parameters) made_->parameters.push_back(value);
+}
+
+const Tape& TypedFunction::tape(Extent extent) const {
+    const auto k = static_cast<std::size_t>(extent);
+    Derivatives& made = *made_;
+    if (made.isMade[k].load(std::memory_order_acquire)) return made.tapes[k];
+    const std::scoped_lock lock(made.guard);
+    if (!made.isMade[k].load(std::memory_order_relaxed)) {
+        Graph graph;
+        const std::vector<int> roots =
+            made.insertIn(graph, extent, [&](int symbol) { return graph.symbol(symbol); });
+        made.tapes[k] = Tape::of(graph, roots, variables_);
+        made.isMade[k].store(true, std::memory_order_release);
+    }
+    return made.tapes[k];
+}
+
+bool TypedFunction::isAffine() const {
     Graph graph;
-    const std::vector<int> here =
-        graph.adopt(symbolic->graph, roots, [&](int symbol) -> std::optional<double> {
-            const int k = symbol - formula.firstParameter();
-            if (k < 0) return {};
-            return formula.parameters[static_cast<std::size_t>(k)].second;
-        });
-    const std::span<const int> all(here);
-    value_ = Tape::of(graph, all.first(1), d);
-    gradient_ = Tape::of(graph, all.subspan(1, static_cast<std::size_t>(d)), d);
-    slopes_ = Tape::of(graph, all.first(static_cast<std::size_t>(1 + d)), d);
-    all_ = Tape::of(graph, all, d);
-    isAffine_ =
-        std::all_of(here.begin() + 1 + d, here.end(), [&](int second) { return graph.isZero(second); });
+    const std::vector<int> all =
+        made_->insertIn(graph, Extent::hessian, [&](int symbol) { return graph.symbol(symbol); });
+    return std::all_of(all.begin() + 1 + variables_, all.end(),
+                       [&](int second) { return graph.isZero(second); });
+}
+
+GraphFunction TypedFunction::addTo(Graph& to, const std::vector<int>& variables) const {
+    const std::vector<int> all = made_->insertIn(
+        to, Extent::gradient, [&](int symbol) { return variables[static_cast<std::size_t>(symbol)]; });
+    return {all.front(), {all.begin() + 1, all.end()}};
 }
 
 void TypedFunction::evaluate(const double* y, double* value, double* gradient, double* hessian) const {
-    const Tape& tape = hessian ? all_ : gradient ? slopes_ : value_;
-    const TapeRegisters r(tape, [&](double* front) { std::copy_n(y, variables_, front); });
+    const Tape& all = tape(hessian ? Extent::hessian : gradient ? Extent::gradient : Extent::value);
+    const TapeRegisters r(all, [&](double* front) { std::copy_n(y, variables_, front); });
     const auto d = static_cast<std::size_t>(variables_);
     *value = r[0];
     if (gradient)
         for (std::size_t i = 0; i < d; ++i) gradient[i] = r[1 + i];
     if (hessian)
         for (std::size_t i = 0; i < d * (d + 1) / 2; ++i) hessian[i] = r[1 + d + i];
-}
-
-void TypedFunction::evaluateNodes(int nodes, const double* y, double* values, double* gradients) const {
-    static const auto call = ForThisMachine<&outputsOfNodes>::call();
-    call(values ? slopes_ : gradient_, nodes, y, values, gradients);
 }
 
 }  // namespace extremal::typed

@@ -2,8 +2,8 @@
 /// A typed function of one or more variables with its first and second derivatives.
 ///
 /// f(y_0, ..), an expression in the names of its variables and parameters, differentiated symbolically and
-/// flattened to tapes: f alone, with df/dy_i, and with d2f/dy_i dy_j. Errors are InvalidScene with the
-/// pointer given and a caret below the place.
+/// flattened to tapes as they are asked for: f alone, with df/dy_i, and with d2f/dy_i dy_j. Errors are
+/// InvalidScene with the pointer given and a caret below the place.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/model/typed/formula.hpp"
+#include "engine/model/typed/graph.hpp"
 #include "engine/model/typed/tape/tape.hpp"
 
 namespace extremal::typed {
@@ -29,13 +30,12 @@ public:
     /// Fills f, then the gradient, then the lower triangle of the Hessian row by row; any of the last two may
     /// be null.
     void evaluate(const double* y, double* value, double* gradient, double* hessian) const;
-    /// The gradients at many nodes together, and f unless `values` is null: entry k of node i at k * nodes +
-    /// i, likewise y; `nodes` is a multiple of 8.
-    void evaluateNodes(int nodes, const double* y, double* values, double* gradients) const;
+    /// Adds it to a graph, with these nodes for y_0, ..
+    GraphFunction addTo(Graph& to, const std::vector<int>& variables) const;
     /// Whether all second derivatives are 0 as formulas.
-    bool isAffine() const { return isAffine_; }
+    bool isAffine() const;
     /// Instructions of one evaluation with all derivatives.
-    std::size_t length() const { return all_.length(); }
+    std::size_t length() const { return tape(Extent::hessian).length(); }
     double operator()(const double* y) const {
         double value = 0;
         evaluate(y, &value, nullptr, nullptr);
@@ -43,11 +43,14 @@ public:
     }
 
 private:
+    enum class Extent : std::size_t { value, gradient, hessian };  ///< each with those before it
+    struct Derivatives;
+
     void compile(const Formula& formula);
+    const Tape& tape(Extent extent) const;
 
     int variables_;
-    bool isAffine_ = false;
-    Tape value_, gradient_, slopes_, all_;  ///< slopes: f and its gradient
+    std::shared_ptr<Derivatives> made_;
 };
 
 }  // namespace extremal::typed

@@ -451,9 +451,6 @@ LagrangianEntries entriesOf(const Mechanics<double>& mechanics) {
 const Landmarks* landmarksOf(const Mechanics<double>& mechanics) {
     return mechanics.jet == jet ? &self(mechanics.model.get()).landmarks : nullptr;
 }
-const Tape* valueTapeOf(const Mechanics<double>& mechanics) {
-    return mechanics.jet == jet ? &self(mechanics.model.get()).value : nullptr;
-}
 const Tape* gradientTapeOf(const Mechanics<double>& mechanics) {
     return mechanics.jet == jet ? &self(mechanics.model.get()).gradient : nullptr;
 }

@@ -28,9 +28,7 @@ TypedMechanics makeMechanics(const Formula& formula);
 /// The same derivatives by their entries, of mechanics made above.
 LagrangianEntries entriesOf(const Mechanics<double>& mechanics);
 
-/// What computes its value from (q, v, t); null where the Lagrangian is not typed.
-const Tape* valueTapeOf(const Mechanics<double>& mechanics);
-/// What computes its gradient in (q, v); null as above.
+/// What computes its gradient in (q, v); null where the Lagrangian is not typed.
 const Tape* gradientTapeOf(const Mechanics<double>& mechanics);
 /// What computes its value, gradient and Hessian; null as above.
 const Tape* jetTapeOf(const Mechanics<double>& mechanics);

@@ -382,6 +382,9 @@ class MonitorTest : public QObject {
         QTest::newRow("a Lagrangian") << QByteArray(lagrangian) << QByteArray(typed);
         QTest::newRow("with a longest step") << QByteArray(lagrangian) << QByteArray(bounded);
         QTest::newRow("a Hamiltonian") << QByteArray(hamiltonian) << QByteArray(typed);
+        const char* const defined = R"json({"type": "typed", "monitor": "r^(3/2)*exp(-p_x*y/9)", "max": 0.4,
+            "let": {"r": "sqrt(x^2+y^2)"}})json";
+        QTest::newRow("a Hamiltonian, with definitions") << QByteArray(hamiltonian) << QByteArray(defined);
     }
     void gradientsOfManyNodesAreThoseOfEach() {
         QFETCH(QByteArray, model);

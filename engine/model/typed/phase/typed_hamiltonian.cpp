@@ -74,16 +74,12 @@ void outputLanes(const PhaseModel& m, const Tape& tape, const double* t, int nod
                 r[4 * m.d] = Lanes::load(t + i);
             },
             [&](std::size_t k, const Lanes& value) {
-                value.store(outputs + static_cast<int>(k) * nodes + i);
+                storeEight(value, outputs + static_cast<int>(k) * nodes + i);
             });
 }
 void gradientLanes(const void* model, const double* t, int nodes, const double* q, const double* p,
                    double* gradients) {
     outputLanes(modelOf(model), modelOf(model).gradient, t, nodes, q, p, gradients);
-}
-void energyLanes(const void* model, const double* t, int nodes, const double* q, const double* p,
-                 double* values) {
-    outputLanes(modelOf(model), modelOf(model).value, t, nodes, q, p, values);
 }
 
 void forceLanes(const void* model, const double* t, int nodes, const double* q, double* f) {
@@ -95,7 +91,9 @@ void forceLanes(const void* model, const double* t, int nodes, const double* q, 
                 for (std::size_t k = 0; k < m.d; ++k) r[k] = Lanes::load(q + static_cast<int>(k) * nodes + i);
                 r[4 * m.d] = Lanes::load(t + i);
             },
-            [&](std::size_t k, const Lanes& value) { value.store(f + static_cast<int>(k) * nodes + i); });
+            [&](std::size_t k, const Lanes& value) {
+                storeEight(value, f + static_cast<int>(k) * nodes + i);
+            });
 }
 
 /// Velocities have no meaning in H.
@@ -156,7 +154,6 @@ public:
             m.forces = ForThisMachine<&forceLanes>::call();
         }
         m.model = model;
-        made.energies = {model, model, ForThisMachine<&energyLanes>::call()};
         for (int i = 0; i < d_; ++i)
             if (graph_.isZero(gradient_[static_cast<std::size_t>(i)])) made.cyclic.push_back(i);
         return made;

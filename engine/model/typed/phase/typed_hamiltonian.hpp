@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "engine/core/settings.hpp"
-#include "engine/model/parts/node_energies.hpp"
 #include "engine/model/phase_mechanics.hpp"
 #include "engine/model/typed/formula.hpp"
 
@@ -26,7 +25,6 @@ Formula coordinatesOf(const Formula& phaseFormula);
 
 struct TypedHamiltonian {
     PhaseMechanics mechanics;
-    NodeEnergies energies;
     std::vector<int> cyclic;  ///< coordinates that are not in H: their momenta are conserved
 };
 /// Throws InvalidScene.

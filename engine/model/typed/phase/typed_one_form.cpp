@@ -49,10 +49,6 @@ void formEnergyAt(const void* model, const double* x, double* value, double* gra
     evaluateWhole(static_cast<const FormModel*>(model)->energy, x, value, gradient, hessian);
 }
 
-void formEnergyGradients(const void* model, int nodes, const double* x, double* gradients) {
-    static_cast<const FormModel*>(model)->energy.evaluateNodes(nodes, x, nullptr, gradients);
-}
-
 bool isAffine(const std::vector<std::optional<TypedFunction>>& theta) {
     return std::all_of(theta.begin(), theta.end(),
                        [](const auto& each) { return !each || each->isAffine(); });
@@ -147,9 +143,11 @@ TypedOneForm oneFormOf(const Settings& settings) {
     made.form.variables = static_cast<int>(names.size());
     made.form.form = formAt;
     made.form.energy = formEnergyAt;
-    made.form.gradients = formEnergyGradients;
     made.form.model = model;
     findPlane(made.form, *model, typed);
+    made.form.together = canonicalTape(made.form, [&](Graph& to, const std::vector<int>& variables) {
+        return model->energy.addTo(to, variables);
+    });
     made.cyclic = cyclicOf(made.form);
     return made;
 }
