@@ -121,6 +121,16 @@ void PhaseLanes::start(const Eigen::Ref<const Matrix>& K, const Eigen::Ref<const
     for (Eigen::Index i = 0; i < more; ++i) gradients_.row(n + i) = gradients_.row(n - 1);
 }
 
+void PhaseLanes::startAt(double t, const double* q0, const double* p0) {
+    times_.setConstant(t);
+    for (int k = 0; k < d(); ++k) {
+        places_.col(k).setConstant(q0[k]);
+        places_.col(d() + k).setConstant(p0[k]);
+    }
+    H_.gradients(H_.model.get(), times_.data(), rows(), places_.data(), places_.col(d()).data(),
+                 gradients_.data());
+}
+
 void PhaseLanes::setStep(double h) {
     h_ = h;
     fill(A_, h, cell_->A);

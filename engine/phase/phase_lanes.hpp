@@ -22,6 +22,8 @@ public:
 
     /// The rates from which sweeps go on: H_p and -H_q at the nodes, node i, coordinate k.
     void start(const Eigen::Ref<const Matrix>& K, const Eigen::Ref<const Matrix>& F);
+    /// Those of a constant field: H_p and -H_q at (q0, p0).
+    void startAt(double t, const double* q0, const double* p0);
     /// Gives what it has changed, each coordinate against its own increments and the round-off of its value;
     /// infinity where that is not finite.
     double sweep(double t, double h, const double* q0, const double* p0);

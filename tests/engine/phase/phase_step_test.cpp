@@ -46,6 +46,11 @@ Motion motionOf(const QString& name) {
     if (name == "H3")
         return {typedHamiltonian({"x", "y"}, "p_x*(y - x*y^2) + p_y*(-sin(x) + .3*y*cos(t)) + x*y"),
                 {0, 0, {0.5, 0.3, 0.7, -0.4}}};
+    if (name == "five")
+        return {typedHamiltonian({"a", "b", "c", "d", "e"},
+                                 "(p_a^2+p_b^2+p_c^2+p_d^2+p_e^2)/2*(1+(a-e)^2/5) + a^2/2 + b^2/2 + c^2/2 + "
+                                 "d^2/2 + e^2/2 + a*b*c/3 - p_d*e*b/4"),
+                {0, 0, {0.3, -0.2, 0.1, 0.4, -0.1, 0.2, 0.3, -0.4, 0.1, 0.5}}};
     return {typedHamiltonian({"x", "y"}, "(p_x^2+p_y^2)/2 + (x^2+y^2)/2 + x^2*y - y^3/3"),
             {0, 0, {0.1, -0.2, 0.35, 0.2}}};
 }
@@ -280,9 +285,11 @@ private slots:
             QVERIFY((M - *differences).cwiseAbs().maxCoeff() < 1e-11);
         }
     }
-    /// At a step where the fixed point does not contract.
     /// With gradients at all nodes together, and node by node; steps of several lengths, one after the other.
-    void nodesTogetherMakeTheStepsOfEachByItself_data() { gaussIsCollocation_data(); }
+    void nodesTogetherMakeTheStepsOfEachByItself_data() {
+        gaussIsCollocation_data();
+        QTest::newRow("five coordinates") << "five";
+    }
     void nodesTogetherMakeTheStepsOfEachByItself() {
         QFETCH(QString, name);
         const Motion of = motionOf(name);
@@ -291,22 +298,33 @@ private slots:
         QVERIFY(oneByOne.gradients);
         oneByOne.gradients = nullptr;
         apart.parts.set(oneByOne);
+        int sweeps = 0;
         const auto ends = [&](const System& system, const Discretization& d) {
             const auto integrator = makeIntegrator(system, d, {0, 0.05});
             State s = of.start;
+            sweeps = 0;
             for (const double h : {0.05, 0.05, 0.05, 0.03, 0.03, 0.06}) {
                 if (integrator->stepSize() != h) integrator->setStep(h);
-                if (integrator->advance(s, s.t + h).outcome != Outcome::converged) qFatal("a step failed");
+                const StepReport report = integrator->advance(s, s.t + h);
+                if (report.outcome != Outcome::converged) qFatal("a step failed");
+                sweeps += report.cost.iterations;
             }
             return s;
         };
         for (const int s : {2, 3, 7, 8, 9, 12})
             for (const Settings& rule : {gaussRule(s), gaussRule(s + 2), lobattoRule(s + 1)}) {
-                const Discretization d = laws::polynomialPair(s, rule);
+                Discretization d = laws::polynomialPair(s, rule);
                 const double apartBy = largestDifference(ends(of.system, d), ends(apart, d));
                 QVERIFY2(apartBy < 5e-15, qPrintable(QString("s = %1: %2").arg(s).arg(apartBy)));
+                // What a sweep has changed is the same: above round-off so is their number.
+                d.solver = {"fixed-point", {{"tolerance", 1e-7}}, {}};
+                (void)ends(of.system, d);
+                const int together = sweeps;
+                (void)ends(apart, d);
+                QCOMPARE(sweeps, together);
             }
     }
+    /// At a step where the fixed point does not contract.
     void newtonTakesWhatTheFixedPointCannot() {
         const Motion of{typedHamiltonian({"x"}, "p_x^2/2*(1+x^2/10) + 200*x^2"), {0, 0, {0.3, 1}}};
         Discretization d = laws::polynomialPair(2, gaussRule(2));
@@ -319,6 +337,19 @@ private slots:
         QVERIFY(at("auto", 0.4).has_value());
         const auto small = at("fixed-point", 0.01), same = at("newton", 0.01);
         QVERIFY(small && same && largestDifference(*small, *same) < 1e-14);
+    }
+    /// Sweeps over nodes together go on for longer where the matrix of Newton's method is large.
+    void newtonIsForWhatSweepsCostMore() {
+        const Motion of = motionOf("five");
+        const auto solvesWith = [&](int s, double h) {
+            const auto integrator = makeIntegrator(of.system, laws::polynomialPair(s, gaussRule(s)), {0, h});
+            State state = of.start;
+            const StepReport report = integrator->advance(state, h);
+            if (report.outcome != Outcome::converged) qFatal("a step failed");
+            return report.cost.linearSolves;
+        };
+        QVERIFY(solvesWith(1, 2) > 0);
+        QCOMPARE(solvesWith(8, 2), 0);
     }
     void denseOutputIsContinuousAndOfItsOrder() {
         const Motion of = motionOf("H1");
