@@ -28,11 +28,19 @@ public:
           holonomic_(mechanism.holonomic()),
           inside_(curve.atLagrangian.rule.c, curve.atLagrangian.at, curve.d),
           ofInside_(curve.atLagrangian.rule.b, curve.atLagrangian.at),
+          insideQq_(ofInside_.value(), curve.atLagrangian.at.value),
+          insideQv_(ofInside_.value(), curve.atLagrangian.at.slope),
+          insideVq_(ofInside_.slope(), curve.atLagrangian.at.value),
+          insideVv_(ofInside_.slope(), curve.atLagrangian.at.slope),
           forced_(curve.atForces.rule.c, curve.atForces.at, curve.d),
           ofForces_(curve.atForces.rule.b, curve.atForces.at),
+          forcesQ_(ofForces_.value(), curve.atForces.at.value),
+          forcesV_(ofForces_.value(), curve.atForces.at.slope),
           places_(curve.places, {curve.atPlaces, {}}, curve.d),
           ofImpulses_(ones(), {curve.atPlaces, {}}),
+          impulsesQ_(ofImpulses_.value(), curve.atPlaces),
           ofRolling_(ones(), {curve.atRolling, {}}),
+          rollingQ_(ofRolling_.value(), curve.atRolling),
           lu_(curve.unknowns() * (curve.d + n_)) {
         const int d = curve_.d, m = curve_.unknowns();
         if (mechanism.rolling()) rolling_.emplace(*mechanism.rolling(), curve);
@@ -57,9 +65,8 @@ public:
         rollingCurvatures_ = Matrix::Zero(m, rolling_ ? d * d : 0);
         curvature_ = Rows::Zero(d, d);
         byTime_ = Vector::Zero(holonomic_);
-        block_ = Matrix::Zero(m, m);
-        const int most = std::max({inside_.stride(), forced_.stride(), places_.stride()});
-        applied_ = Vector::Zero(most * m);
+        block_ = Matrix::Zero(m + 1, m);
+        impulseBy_ = Matrix::Zero(d, m * (d + n_));
     }
 
     std::unique_ptr<MechanismEquations> clone() const override {
@@ -88,11 +95,11 @@ public:
     Outcome factorise() override {
         const int d = curve_.d, m = curve_.unknowns();
         findSecondDerivatives();
-        for (int c = 0; c < m * d; ++c) std::fill_n(lu_.column(c), m * (d + n_), 0.0);
+        lu_.clear();
+        impulseBy_.setZero();
         for (int k = 0; k < d; ++k)
             for (int l = 0; l < d; ++l) addPair(k, l);
         for (int j = 0; j < m; ++j) {
-            for (int c = 0; c < n_; ++c) std::fill_n(lu_.column(m * d + j * n_ + c), m * (d + n_), 0.0);
             if (constraint_) setConstraints(j);
             if (rolling_) setRolling(j);
         }
@@ -101,15 +108,12 @@ public:
     void solve(Vector& x) const override { lu_.solve(x.data()); }
     void solveTransposed(Vector& x) const override { lu_.solveTransposed(x.data()); }
     void reactions(const double* impulses, Vector& to) const override {
-        const int m = curve_.unknowns();
-        to.setZero();
-        for (int j = 0; j < m; ++j, impulses += n_) {
-            for (int c = 0; c < holonomic_; ++c)
-                for (int k = 0; k < curve_.d; ++k) to(k) += firsts_(j, byPlace(c, k)) * impulses[c];
-            if (rolling_)
-                to.noalias() += rolling_->reaction(j).transpose() *
-                                Eigen::Map<const Vector>(impulses + holonomic_, rolling_->count());
-        }
+        const int count = curve_.unknowns() * n_;
+        to.noalias() = impulseBy_.rightCols(count) * Eigen::Map<const Vector>(impulses, count);
+    }
+    bool moveImpulse(const Vector& correction) override {
+        impulse_.noalias() -= impulseBy_ * correction;
+        return true;
     }
 
 private:
@@ -213,60 +217,27 @@ private:
     }
     int entry(int row, int column) const { return 2 * curve_.d * row + column; }
 
-    /// dR(k) / dY(l), of all functions.
+    /// dR(k) / dY(l) and dA(k) / dY(l), of all functions.
     void addPair(int k, int l) {
         const int d = curve_.d, m = curve_.unknowns();
         const auto hessian = [&](int row, int column) { return hessians_.col(entry(row, column)).data(); };
-        isPresent_ = false;
         block_.setZero();
-        if (apply(inside_, {hessian(k, l), h_}, {hessian(k, d + l), 1}))
-            ofInside_.addValues(applied_.data(), inside_.stride(), block_);
-        if (apply(inside_, {hessian(d + k, l), 1}, {hessian(d + k, d + l), 1 / h_}))
-            ofInside_.addSlopes(applied_.data(), inside_.stride(), block_);
-        if (force_ &&
-            apply(forced_, {byState_.col(entry(k, l)).data(), h_}, {byState_.col(entry(k, d + l)).data(), 1}))
-            ofForces_.addValues(applied_.data(), forced_.stride(), block_);
-        if (constraint_ && apply(places_, {curvatures_.col(k * d + l).data(), 1}, {nullptr, 0}))
-            ofImpulses_.addValues(applied_.data(), places_.stride(), block_);
-        if (rolling_) addCurvatureOfRolling(k * d + l);
-        if (!isPresent_) return;
+        bool isPresent = insideQq_.add(hessian(k, l), h_, block_);
+        isPresent |= insideQv_.add(hessian(k, d + l), 1, block_);
+        isPresent |= insideVq_.add(hessian(d + k, l), 1, block_);
+        isPresent |= insideVv_.add(hessian(d + k, d + l), 1 / h_, block_);
+        if (force_) {
+            isPresent |= forcesQ_.add(byState_.col(entry(k, l)).data(), h_, block_);
+            isPresent |= forcesV_.add(byState_.col(entry(k, d + l)).data(), 1, block_);
+        }
+        if (constraint_) isPresent |= impulsesQ_.add(curvatures_.col(k * d + l).data(), 1, block_);
+        if (rolling_) isPresent |= rollingQ_.add(rollingCurvatures_.col(k * d + l).data(), 1, block_);
+        if (!isPresent) return;
         for (int b = 0; b < m; ++b) {
             double* const column = lu_.column(b * d + l);
             for (int a = 0; a < m; ++a) column[a * d + k] = block_(a, b);
+            impulseBy_(k, b * d + l) = block_(m, b);
         }
-    }
-    /// A derivative at the nodes, and what it is multiplied by.
-    struct Weighted {
-        const double* at;
-        double weight;
-    };
-    /// applied_(i, b) = byPlace(i) phi_b(i) + byVelocity(i) phi_b'(i); false where it is 0.
-    bool apply(const NodeLanes& nodes, const Weighted& byPlace, const Weighted& byVelocity) {
-        const auto isThere = [&](const Weighted& w) {
-            return w.at && std::any_of(w.at, w.at + nodes.nodes(), [](double x) { return x != 0; });
-        };
-        const bool hasPlace = isThere(byPlace), hasVelocity = isThere(byVelocity);
-        if (!hasPlace && !hasVelocity) return false;
-        const int stride = nodes.stride();
-        for (int b = 0; b < curve_.unknowns(); ++b) {
-            double* const to = applied_.data() + b * stride;
-            std::fill_n(to, stride, 0.0);
-            const auto add = [&](const Weighted& w, const double* function) {
-                for (int i = 0; i < stride; ++i) to[i] += w.weight * w.at[i] * function[i];
-            };
-            if (hasPlace) add(byPlace, nodes.value().col(b).data());
-            if (hasVelocity) add(byVelocity, nodes.slope().col(b).data());
-        }
-        return isPresent_ = true;
-    }
-    void addCurvatureOfRolling(int entry) {
-        const int m = curve_.unknowns();
-        const auto curvature = rollingCurvatures_.col(entry);
-        if (curvature.isZero(0)) return;
-        isPresent_ = true;
-        Eigen::Map<Matrix> applied(applied_.data(), m, m);
-        applied = curvature.asDiagonal() * curve_.atRolling;
-        ofRolling_.addValues(applied_.data(), m, block_);
     }
 
     /// Reactions at e_j, and g at e_(j+1).
@@ -276,8 +247,9 @@ private:
             double* const column = lu_.column(m * d + j * n_ + c);
             for (int i = 0; i < d; ++i) {
                 const double reaction = firsts_(j, byPlace(c, i)), rate = firsts_(j + 1, byPlace(c, i));
+                impulseBy_(i, m * d + j * n_ + c) = reaction;
                 for (int a = 0; a < m; ++a) {
-                    column[a * d + i] = ofImpulses_(a, j) * reaction;
+                    column[a * d + i] = ofImpulses_.value()(a, j) * reaction;
                     lu_.column(a * d + i)[m * d + j * n_ + c] = curve_.atPlaces(j + 1, a) * rate;
                 }
             }
@@ -288,9 +260,10 @@ private:
         for (int c = 0; c < rolling_->count(); ++c) {
             const int row = m * d + j * n_ + holonomic_ + c;
             double* const column = lu_.column(row);
+            impulseBy_.col(row) = rolling_->reaction(j).row(c).transpose();
             for (int a = 0; a < m; ++a)
                 for (int i = 0; i < d; ++i) {
-                    column[a * d + i] = ofRolling_(a, j) * rolling_->reaction(j)(c, i);
+                    column[a * d + i] = ofRolling_.value()(a, j) * rolling_->reaction(j)(c, i);
                     lu_.column(a * d + i)[row] = rolling_->rate(j, c, a, i);
                 }
         }
@@ -304,11 +277,15 @@ private:
     int n_, holonomic_;
     NodeLanes inside_;  ///< the nodes of L
     NodeTests ofInside_;
+    NodePairs insideQq_, insideQv_, insideVq_, insideVv_;  ///< by which L is differentiated, twice
     NodeLanes forced_;
     NodeTests ofForces_;
+    NodePairs forcesQ_, forcesV_;
     NodeLanes places_;      ///< e_j
     NodeTests ofImpulses_;  ///< at e_j, j < m
-    NodeTests ofRolling_;   ///< at r_j
+    NodePairs impulsesQ_;
+    NodeTests ofRolling_;  ///< at r_j
+    NodePairs rollingQ_;
     SmallLu<double> lu_;
     double h_ = 0;  ///< of the last evaluation, as z_ and impulses_
     Vector z_, impulses_;
@@ -317,9 +294,8 @@ private:
     Matrix gradients_, hessians_, forces_, byState_;  ///< side by side
     Matrix firsts_, multipliers_, reactions_, curvatures_;
     Matrix rollingReactions_, rollingCurvatures_;
-    Matrix block_;
-    Vector applied_;
-    bool isPresent_ = false;  ///< whether anything is in block_
+    Matrix block_;      ///< (a, b), a = m for the function 1
+    Matrix impulseBy_;  ///< dA by the unknowns
     Rows curvature_;
     Vector gradient_, byTime_;  ///< not asked for
 };

@@ -22,7 +22,8 @@ public:
           n_(conditions.count()),
           lu_(d_ + n_) {
         hessian_ = Rows::Zero(2 * d_, 2 * d_);
-        byPlace_ = Rows::Zero(n_, d_);
+        byPlace_ = factorisedByPlace_ = Rows::Zero(n_, d_);
+        factorisedMass_ = Rows::Zero(d_, d_);
         gradient_ = Vector::Zero(2 * d_);
         forces_ = Vector::Zero(d_);
         value_ = byTime_ = Vector::Zero(n_);
@@ -53,13 +54,18 @@ public:
     }
     double mass(int k) const override { return hessian_(d_ + k, d_ + k); }
 
+    /// Corrections of a velocity at one place have one matrix, where L is quadratic in it.
     bool factorise() override {
+        const auto mass = hessian_.bottomRightCorner(d_, d_);
+        if (isFactorised_ && mass == factorisedMass_ && byPlace_ == factorisedByPlace_) return true;
+        factorisedMass_ = mass;
+        factorisedByPlace_ = byPlace_;
         for (int j = 0; j < d_ + n_; ++j) {
             double* const column = lu_.column(j);
             for (int i = 0; i < d_; ++i) column[i] = j < d_ ? hessian_(d_ + i, d_ + j) : -byPlace_(j - d_, i);
             for (int k = 0; k < n_; ++k) column[d_ + k] = j < d_ ? byPlace_(k, j) : 0;
         }
-        return lu_.factorise() == Outcome::converged;
+        return isFactorised_ = lu_.factorise() == Outcome::converged;
     }
     void solve(Vector& x) const override { lu_.solve(x.data()); }
 
@@ -87,6 +93,8 @@ private:
     int d_, n_;
     SmallLu<double> lu_;
     Rows hessian_, byPlace_;
+    Rows factorisedMass_, factorisedByPlace_;  ///< what lu_ has the factors of
+    bool isFactorised_ = false;
 };
 
 }  // namespace

@@ -86,6 +86,9 @@ public:
     /// place by dq, of the time by dt. `v` and `kappa` as it left them. False where there is no solution.
     bool varyProjection(double t, const double* q, const Vector& v, const Vector& kappa,
                         const Eigen::MatrixXd& dq, const Eigen::RowVectorXd& dt, Eigen::MatrixXd& dp);
+    /// Derivatives by (q, p) of its result become those of what it was given; columns of 2 d.
+    bool transposeProjection(double t, const double* q, const Vector& v, const Vector& kappa,
+                             Eigen::Map<Eigen::MatrixXd> columns);
     /// The derivative of g_q v + g_t and of a v - b along dq, at a fixed velocity; `to` has its size.
     void rateAlong(double t, const double* q, const Vector& v, const Vector& dq, Vector& to);
     /// tr(F_v L_vv^-1) over the velocities that the conditions allow: the rate at which forces change volumes

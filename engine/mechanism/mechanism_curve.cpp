@@ -65,14 +65,14 @@ void MechanismCurve::placeAt(const Eigen::VectorXd& z, const Eigen::MatrixXd& at
     for (int a = 0; a < unknowns(); ++a) node.head(d) += at(j, a) * z.segment((a + 1) * d, d);
 }
 
-void MechanismCurve::motionAt(const Nodes& nodes, const Eigen::VectorXd& z, int i, double h,
+void MechanismCurve::motionAt(const Samples& at, int i, const Eigen::VectorXd& z, double h,
                               Eigen::VectorXd& node) const {
     auto q = node.head(d), v = node.tail(d);
     q = z.head(d);
     v.setZero();
     for (int a = 0; a < unknowns(); ++a) {
-        q += nodes.at.value(i, a) * z.segment((a + 1) * d, d);
-        v += nodes.at.slope(i, a) / h * z.segment((a + 1) * d, d);
+        q += at.value(i, a) * z.segment((a + 1) * d, d);
+        v += at.slope(i, a) / h * z.segment((a + 1) * d, d);
     }
 }
 

@@ -47,8 +47,12 @@ struct MechanismCurve {
     /// q where the functions have the values of row j of `at` (atPlaces, atRolling), into the front of
     /// `node`.
     void placeAt(const Eigen::VectorXd& z, const Eigen::MatrixXd& at, int j, Eigen::VectorXd& node) const;
-    /// (q, v) at node i of a rule, in a step of length h.
-    void motionAt(const Nodes& nodes, const Eigen::VectorXd& z, int i, double h, Eigen::VectorXd& node) const;
+    /// (q, v) where the functions are those of row i of `at`, or at node i of a rule, in a step of length h.
+    void motionAt(const Samples& at, int i, const Eigen::VectorXd& z, double h, Eigen::VectorXd& node) const;
+    void motionAt(const Nodes& nodes, const Eigen::VectorXd& z, int i, double h,
+                  Eigen::VectorXd& node) const {
+        motionAt(nodes.at, i, z, h, node);
+    }
     Samples samples(const std::vector<double>& at) const;
 
     Table<double> table;

@@ -39,8 +39,11 @@ public:
     /// The solution with the last factors in place of a right-hand side.
     virtual void solve(Vector& x) const = 0;
     virtual void solveTransposed(Vector& x) const = 0;
-    /// sum_{j<m} g_q^T Lambda_j, where evaluate() was asked last, of any Lambda.
+    /// sum_{j<m} g_q^T Lambda_j of any Lambda, where evaluate() or factorise() was asked last.
     virtual void reactions(const double* impulses, Vector& to) const = 0;
+    /// Moves A to where the unknowns are less by this correction, with the last matrix; false: evaluate() is
+    /// to be asked.
+    virtual bool moveImpulse(const Vector& /*correction*/) { return false; }
     /// How, where that was a choice.
     virtual std::string about() const { return {}; }
 

@@ -20,6 +20,7 @@
 #include "engine/mechanism/step_correction.hpp"
 #include "engine/mechanism/step_variation.hpp"
 #include "engine/mechanism/varied_step.hpp"
+#include "engine/solve/contraction.hpp"
 #include "engine/solve/step_continuation.hpp"
 
 namespace extremal {
@@ -176,7 +177,9 @@ public:
     bool pullBack(std::span<double> W, NodePull& pull) override {
         const auto rows = static_cast<Eigen::Index>(tangentSize());
         const Eigen::Map<Eigen::MatrixXd> columns(W.data(), rows, static_cast<Eigen::Index>(W.size()) / rows);
-        return haveFactorsAtSolution() && (!isProjected() || transposeProjection(columns)) &&
+        return haveFactorsAtSolution() &&
+               (!isProjected() ||
+                mechanism_.transposeProjection(start_ + h_, q1_.data(), endVelocity_, kappa_, columns)) &&
                adjoint_.apply({start_, h_, z_, impulses_}, *equations_, pull, columns);
     }
 
@@ -217,37 +220,18 @@ private:
     /// A root this far from its starting value, against the increments of the step, may be another one than
     /// that of the motion.
     static constexpr double far = 0.25;
+    /// A new matrix of this size costs as much as so many corrections save.
+    static double worth(Eigen::Index size) { return 4 + static_cast<double>(size) / 16; }
 
     int dimension() const { return mechanism_.dimension(); }
     int constraints() const { return mechanism_.constraints(); }
     /// Whether p at the end is moved onto the conditions.
     bool isProjected() const { return constraints() > 0 && !curve_.isRollingAtGauss; }
 
-    /// Derivatives by (q_1, p_1) become those by q_1 and by p_0 + A.
-    bool transposeProjection(Eigen::Map<Eigen::MatrixXd> columns) {
-        using Matrix = Eigen::MatrixXd;
-        const int d = dimension();
-        Matrix dq = Matrix::Identity(d, 2 * d), dp = Matrix::Zero(d, 2 * d);
-        dp.rightCols(d).setIdentity();
-        const Eigen::RowVectorXd fixed = Eigen::RowVectorXd::Zero(2 * d);
-        if (!mechanism_.varyProjection(start_ + h_, q1_.data(), endVelocity_, kappa_, dq, fixed, dp))
-            return false;
-        const Matrix given = columns.bottomRows(d);
-        columns.bottomRows(d).setZero();
-        columns += dp.transpose() * given;
-        return true;
-    }
-
     /// (q, L_v) at tau, with the functions there in a row of `at`.
     void onCurve(double tau, const MechanismCurve::Samples& at, int row, std::span<double> x) const {
         const int d = dimension();
-        auto q = node_.head(d), v = node_.tail(d);
-        q = z_.head(d);
-        v.setZero();
-        for (int a = 0; a < curve_.unknowns(); ++a) {
-            q += at.value(row, a) * Y_.segment(a * d, d);
-            v += at.slope(row, a) / h_ * Y_.segment(a * d, d);
-        }
+        curve_.motionAt(at, row, z_, h_, node_);
         const auto& L = mechanism_.mechanics();
         L.gradient(L.model.get(), start_ + tau * h_, node_.data(), node_.data() + d, gradient_.data());
         std::copy_n(node_.data(), d, x.data());
@@ -339,15 +323,16 @@ private:
     }
 
     bool evaluate(double h) {
-        const int d = dimension(), m = curve_.unknowns();
-        z_.tail(m * d) = Y_;
+        z_.tail(Y_.size()) = Y_;
         report_.cost.evaluations += curve_.table.nodes();
-        return equations_->evaluate(start_, h, z_, p0_, impulses_);
+        return isEvaluatedHere_ = equations_->evaluate(start_, h, z_, p0_, impulses_);
     }
 
-    /// The factors are of the place where R was evaluated last, which is the solution.
+    /// The factors at the solution.
     bool haveFactorsAtSolution() {
-        if (!areFactorsHere_) areFactorsHere_ = equations_->factorise() == Outcome::converged;
+        if (!areFactorsHere_)
+            areFactorsHere_ =
+                (isEvaluatedHere_ || evaluate(h_)) && equations_->factorise() == Outcome::converged;
         return areFactorsHere_;
     }
 
@@ -355,7 +340,9 @@ private:
     /// first correction shows the root to be farther away than `farthest`.
     Outcome newton(double h, double farthest = std::numeric_limits<double>::infinity()) {
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
-        NewtonPolicy<double> policy(NewtonLimits<double>::mechanismStep(tolerance_));
+        const auto limits = NewtonLimits<double>::mechanismStep(tolerance_);
+        NewtonPolicy<double> policy(limits);
+        Contraction<double> contraction(limits);
         double firstChange = 0;
         bool needsFactors = true;
         for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
@@ -383,14 +370,28 @@ private:
                 if (iteration == 0) firstChange = change;
                 if (iteration == 0 && nearness_ > farthest) return Outcome::diverged;
             }
+            contraction.take(report_.residual, correction_.ofCurve(), correction_.changeInMassMetric());
             const NewtonVerdict verdict =
                 policy.judge(report_.residual, [this] { return correction_.apart(); });
             if (const auto end = endOf(verdict)) return *end;
             Y_ -= residual_.head(m * d);
             impulses_ -= residual_.tail(m * n);
-            needsFactors = verdict == NewtonVerdict::slow;
+            if (contraction.isLast()) return settle(h, contraction.next());
+            needsFactors = verdict == NewtonVerdict::slow || correction_.isElsewhere() ||
+                           contraction.left() > worth(residual_.size());
         }
         return Outcome::diverged;
+    }
+
+    /// The end, with unknowns from which the next correction would move by a part `next`, and A there: to
+    /// first order where what that leaves out, which is such a part too, is far below the tolerance.
+    Outcome settle(double h, double next) {
+        report_.residual = next;
+        z_.tail(Y_.size()) = Y_;
+        areFactorsHere_ = isEvaluatedHere_ = false;
+        const double little = std::max(1e-3 * tolerance_, std::numeric_limits<double>::epsilon());
+        if (next <= little && equations_->moveImpulse(residual_)) return Outcome::converged;
+        return evaluate(h) ? Outcome::converged : Outcome::notFinite;
     }
 
     /// (q_1, p_1) with what the last sums have lost, and the work.
@@ -472,7 +473,8 @@ private:
     double previousStep_ = 0;                               ///< its length; 0: there was none
     bool continues_;  ///< whether the curve of a step goes on behind its end
     StartingLadder ladder_;
-    bool areFactorsHere_ = false;  ///< at the place of the last evaluation
+    /// Whether the last evaluation, and the last factors, are those at the unknowns.
+    bool isEvaluatedHere_ = false, areFactorsHere_ = false;
     Vector forces_;
     mutable Vector node_, gradient_;  ///< of one node
     std::optional<HessianPull> pull_;

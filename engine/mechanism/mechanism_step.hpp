@@ -30,8 +30,10 @@
 /// increments would be others than the last ones, or the root is not near, it starts from
 /// q_0 + t v_0 + t^2 a_0 / 2, lambda of the state. A root that was not near this start either may be another
 /// assembly of the mechanism: it is accepted if it is the one that short steps lead to
-/// (solve/step_continuation.hpp). The matrix is that of the start for as long as corrections shrink well; a
-/// tangent map has its own, at the solution. What q and p lose to rounding is carried on.
+/// (solve/step_continuation.hpp). The matrix is that of the start for as long as corrections shrink well, and
+/// the iteration ends where the next correction would be below the tolerance (solve/contraction.hpp); A then
+/// moves with the last one, by its derivative. A tangent map has a matrix of its own, at the solution. What q
+/// and p lose to rounding is carried on.
 #pragma once
 
 #include <functional>

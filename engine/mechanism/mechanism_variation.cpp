@@ -8,6 +8,19 @@
 
 namespace extremal {
 
+bool Mechanism::transposeProjection(double t, const double* q, const Vector& v, const Vector& kappa,
+                                    Eigen::Map<Eigen::MatrixXd> columns) {
+    using Matrix = Eigen::MatrixXd;
+    const int d = dimension();
+    Matrix dq = Matrix::Identity(d, 2 * d), dp = Matrix::Zero(d, 2 * d);
+    dp.rightCols(d).setIdentity();
+    if (!varyProjection(t, q, v, kappa, dq, Eigen::RowVectorXd::Zero(2 * d), dp)) return false;
+    const Matrix given = columns.bottomRows(d);
+    columns.bottomRows(d).setZero();
+    columns += dp.transpose() * given;
+    return true;
+}
+
 void Mechanism::rateAlong(double t, const double* q, const Vector& v, const Vector& dq, Vector& to) {
     const int d = dimension(), g = holonomic();
     to.setZero();

@@ -64,4 +64,26 @@ void NodeTests::add(const Matrix& tests, const double* data, int stride, Matrix&
                    static_cast<int>(to.cols()), static_cast<int>(tests.cols())});
 }
 
+NodePairs::NodePairs(const Matrix& tests, const Matrix& functions) : weighted_(tests.cols()) {
+    const Eigen::Index m = functions.cols();
+    if (m == 0) return;
+    products_ = Matrix::Zero(inWholeLanes((m + 1) * m), tests.cols());
+    for (Eigen::Index i = 0; i < tests.cols(); ++i)
+        for (Eigen::Index b = 0; b < m; ++b)
+            products_.col(i).segment(b * (m + 1), m + 1) = functions(i, b) * tests.col(i).head(m + 1);
+}
+
+bool NodePairs::add(const double* data, double weight, Matrix& to) {
+    bool isThere = false;
+    for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
+        weighted_(i) = weight * data[i];
+        isThere |= data[i] != 0;
+    }
+    if (!isThere) return false;
+    const auto rows = static_cast<int>(to.size()), nodes = static_cast<int>(weighted_.size());
+    sums_.product({products_.data(), static_cast<int>(products_.rows()), weighted_.data(), nodes, to.data(),
+                   rows, rows, 1, nodes});
+    return true;
+}
+
 }  // namespace extremal

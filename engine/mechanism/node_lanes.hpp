@@ -78,14 +78,33 @@ public:
     /// to(a, c) += sum_i w_i chi_a(i) data(i, c), or with chi_a', for all rows of `to`.
     void addValues(const double* data, int stride, Matrix& to) const { add(value_, data, stride, to); }
     void addSlopes(const double* data, int stride, Matrix& to) const { add(slope_, data, stride, to); }
-    /// chi_a(i), where the weight is 1.
-    double operator()(int a, int i) const { return value_(a, i); }
+    /// w_i chi_a(i) and w_i chi_a'(i), row by row.
+    const Matrix& value() const { return value_; }
+    const Matrix& slope() const { return slope_; }
 
 private:
     void add(const Matrix& tests, const double* data, int stride, Matrix& to) const;
 
     NodeSums sums_ = nodeSums();
     Matrix value_, slope_;  ///< (a, i), in whole registers
+};
+
+/// Sums over nodes with the product of a test function and a function of the space: to(a, b) +=
+/// sum_i w_i chi_a(i) phi_b(i) data(i), or with their derivatives.
+class NodePairs {
+public:
+    using Matrix = Eigen::MatrixXd;
+
+    /// `tests` of m + 1 rows, functions at the first nodes of the samples.
+    NodePairs(const Matrix& tests, const Matrix& functions);
+
+    /// Adds the sums with weight * data to `to`, (m + 1) x m; false where all data are 0.
+    bool add(const double* data, double weight, Matrix& to);
+
+private:
+    NodeSums sums_ = nodeSums();
+    Matrix products_;  ///< (a + b (m + 1), i), in whole registers
+    Eigen::VectorXd weighted_;
 };
 
 }  // namespace extremal

@@ -33,10 +33,16 @@ void StepCorrection::take(const MechanismEquations& equations, const Of& of) {
 }
 
 double StepCorrection::relative() const {
+    double size = ofCurve();
+    for (int k = 0; n_ > 0 && k < d_; ++k)
+        size = std::max(size, relativeCorrection(moved_(k), std::max(increments_(k), pulled_(k)), value(k)));
+    return size;
+}
+
+double StepCorrection::ofCurve() const {
     double size = 0;
     for (int k = 0; k < d_; ++k)
-        size = std::max({size, relativeCorrection(change_(k), increments_(k), value(k)),
-                         relativeCorrection(moved_(k), std::max(increments_(k), pulled_(k)), value(k))});
+        size = std::max(size, relativeCorrection(change_(k), increments_(k), value(k)));
     return size;
 }
 
@@ -46,21 +52,18 @@ double StepCorrection::changeInMassMetric() const {
     return change;
 }
 
-double StepCorrection::inMassMetric() {
+double StepCorrection::incrementsInMassMetric() const {
     constexpr double roundOff = 100 * std::numeric_limits<double>::epsilon();
+    double size = 0;
+    for (int k = 0; k < d_; ++k)
+        size = std::max(size, std::sqrt(masses_(k)) * std::max(increments_(k), roundOff * value(k)));
+    return size;
+}
+
+double StepCorrection::inMassMetric() {
     const double change = changeInMassMetric();
-    const auto known = [this] {
-        double size = 0;
-        for (int k = 0; k < d_; ++k)
-            size = std::max(size, std::sqrt(masses_(k)) * std::max(increments_(k), roundOff * value(k)));
-        return size;
-    };
-    double increments = known();
-    if (n_ > 0 && change > increments / 4) {
-        knowReactions();
-        increments = known();
-    }
-    return change > 0 ? change / increments : 0;
+    if (n_ > 0 && change > incrementsInMassMetric() / 4) knowReactions();
+    return change > 0 ? change / incrementsInMassMetric() : 0;
 }
 
 }  // namespace extremal

@@ -32,8 +32,9 @@ public:
     };
     void take(const MechanismEquations& equations, const Of& of);
 
-    /// The largest relative correction.
+    /// The largest relative correction, and that of the curve alone.
     double relative() const;
+    double ofCurve() const;
     /// The same with coordinates apart whose increments are round-off.
     CorrectionSize<double> apart() const {
         return measureCorrection<double>(d_, [this](int k) { return ofCoordinate(k); });
@@ -42,6 +43,8 @@ public:
     /// increments of almost nothing.
     double changeInMassMetric() const;
     double inMassMetric();
+    /// Whether a matrix of the place before it belongs to another place.
+    bool isElsewhere() const { return changeInMassMetric() > 0.1 * incrementsInMassMetric(); }
     /// From here on what reactions keep coordinates from in a step is a size that rounding is told by: of a
     /// body that they hold at rest in the origin it is the only one.
     void knowReactions() { held_ = pulled_; }
@@ -50,6 +53,7 @@ private:
     CoordinateCorrection<double> ofCoordinate(int k) const {
         return {change_(k), increments_(k), value(k), masses_(k), impulse_(k)};
     }
+    double incrementsInMassMetric() const;
     double value(int k) const { return std::max(place_(k), held_(k)); }
 
     int d_, m_, n_;

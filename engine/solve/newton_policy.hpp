@@ -86,11 +86,11 @@ struct NewtonLimits {
         l.predicted = T(0.25) * tolerance;
         return l;
     }
-    /// Newton's method of the step of a mechanism, with a Jacobian that is kept while it contracts.
+    /// Newton's method of the step of a mechanism, with a Jacobian that is kept while it contracts: how far
+    /// and how fast is measured apart from the multipliers (solve/contraction.hpp).
     static NewtonLimits mechanismStep(const T& tolerance) {
         NewtonLimits l;
         l.tolerance = tolerance;
-        l.refreshAbove = T(0.1);
         return l;
     }
     /// One element whose step is varied until its energy is right: a new Jacobian in every iteration, whose

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "engine/solve/contraction.hpp"
 #include "engine/solve/newton_policy.hpp"
 #include "tests/tools/test.hpp"
 
@@ -68,6 +70,31 @@ private slots:
         QCOMPARE(lastOf(Limits::productStep(), {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}), Verdict::slow);
         QCOMPARE(lastOf(Limits::dense(), {0.1, std::nan("")}), Verdict::notFinite);
         QCOMPARE(lastOf(Limits::dense(), {0.1, std::numeric_limits<double>::infinity()}), Verdict::notFinite);
+    }
+    void correctionsForetellTheNext() {
+        const auto after = [](double tolerance, const std::vector<std::pair<double, double>>& sizes) {
+            Contraction<double> contraction(Limits::mechanismStep(tolerance));
+            for (const auto& [size, nonlinear] : sizes) contraction.take(size, nonlinear, 7 * nonlinear);
+            return contraction;
+        };
+        // The first correction says nothing; the second one how much smaller the third would be.
+        QVERIFY(!after(1e-9, {{1e-12, 1e-12}}).isLast());
+        QVERIFY(!after(1e-9, {{1e-2, 1e-2}, {1e-5, 1e-5}}).isLast());
+        QVERIFY(after(1e-7, {{1e-2, 1e-2}, {1e-5, 1e-5}}).isLast());
+        QCOMPARE(after(4e-17, {{1e-2, 1e-2}, {1e-5, 1e-5}}).left(), 3.0);  // to 1e-17 from 1e-8
+        // A linear part that was far away is no sign of a small ratio.
+        QVERIFY(after(1e-9, {{1, 1}, {1e-6, 1e-6}}).isLast());
+        QVERIFY(!after(1e-9, {{1, 1e-4}, {1e-6, 1e-6}}).isLast());
+        // Round-off does not shrink: the ratio is that of the corrections above it.
+        QVERIFY(after(eps_, {{1e-2, 1e-2}, {1e-7, 1e-7}, {1e-12, 1e-12}}).isLast());
+        QVERIFY(after(eps_, {{1e-2, 1e-2}, {1e-6, 1e-6}, {1e-10, 1e-10}, {5e-13, 5e-13}}).isLast());
+        // A coordinate at rest has relative corrections of any size.
+        Contraction<double> contraction(Limits::mechanismStep(1e-9));
+        contraction.take(1e8, 1e8, 1e-2);
+        contraction.take(1e-6, 1e-6, 1e-4);
+        QVERIFY(!contraction.isLast());
+        // Where nothing shrinks there is nothing to foretell.
+        QCOMPARE(after(eps_, {{1e-2, 1e-2}, {1e-2, 1e-2}}).left(), 0.0);
     }
     void lightAxesEndAtTheirFloorWithANewJacobian() {
         Policy policy(Limits::lieStep(eps_));
