@@ -42,6 +42,14 @@ void addTo(double* y, double s, const double* x) {
     for (int i = 0; i < many; ++i) y[i] += s * x[i];
 }
 
+/// p += s f and q += s p / m of any number of coordinates.
+void kickAll(double* p, double s, const double* f, int size) {
+    for (int i = 0; i < size; ++i) p[i] += s * f[i];
+}
+void driftAll(double* q, double s, const double* perMass, const double* p, int size) {
+    for (int i = 0; i < size; ++i) q[i] += (s * perMass[i]) * p[i];
+}
+
 template <int D>
 class Partitioned final : public FlowMethod<D>, public SharesForce, public TakesManyStates {
     using Base = FlowMethod<D>;
@@ -111,17 +119,16 @@ public:
         const std::size_t half = static_cast<std::size_t>(this->d()) * many;
         bool isForceFresh = true;
         for (long long step = 0; step < steps; ++step)
-            for (const PartitionedStage& stage : stages_) {
-                const double s = stage.fraction * this->h();
-                if (stage.isKick() && !isForceFresh)
-                    m.forces(m.model.get(), manyTimes_.data(), many, x, manyForces_.data());
-                isForceFresh = stage.isKick();
-                for (std::size_t k = 0; k < half; k += many)
-                    if (stage.isKick())
-                        add(x + half + k, s, &manyForces_[k]);
-                    else
+            takePairs(
+                isForceFresh,
+                [&] { m.forces(m.model.get(), manyTimes_.data(), many, x, manyForces_.data()); },
+                [&](double s) {
+                    for (std::size_t k = 0; k < half; k += many) add(x + half + k, s, &manyForces_[k]);
+                },
+                [&](double s) {
+                    for (std::size_t k = 0; k < half; k += many)
                         add(x + k, s * inverseMass_(static_cast<Eigen::Index>(k / many)), x + half + k);
-            }
+                });
         return true;
     }
 
@@ -185,30 +192,57 @@ private:
     void kickAndDrift(double t, Vector& q, Vector& p, bool& isForceFresh, StepReport& report) {
         const auto& m = this->mechanics_;
         const double h = this->h();
+        const auto drift = [&](double s) {
+            if constexpr (D == Eigen::Dynamic)
+                ForThisMachine<&driftAll>::call()(q.data(), s, inverseMass_.data(), p.data(), this->d());
+            else
+                q += (s * inverseMass_).cwiseProduct(p);
+        };
+        if (!m.kicksAndDrifts) {
+            takePairs(
+                isForceFresh,
+                [&] {
+                    m.force(m.model.get(), t, q.data(), force_.data());
+                    ++report.cost.evaluations;
+                },
+                [&](double s) {
+                    if constexpr (D == Eigen::Dynamic)
+                        ForThisMachine<&kickAll>::call()(p.data(), s, force_.data(), this->d());
+                    else
+                        p += s * force_;
+                },
+                drift);
+            return;
+        }
+        if (h != timesOf_) {
+            times_ = pairs_;
+            for (KickAndDrift<double>& pair : times_) pair = {pair.kick * h, pair.drift * h};
+            timesOf_ = h;
+        }
         if (firstDrift_ != 0) {
-            q += (firstDrift_ * h * inverseMass_).cwiseProduct(p);
+            drift(firstDrift_ * h);
             isForceFresh = false;
         }
-        if (pairs_.empty()) return;
-        // The last kick of a step and the first of the next one use the same force.
-        report.cost.evaluations += static_cast<int>(pairs_.size()) - isForceFresh;
-        if (m.kicksAndDrifts) {
-            if (h != timesOf_) {
-                times_ = pairs_;
-                for (KickAndDrift<double>& pair : times_) pair = {pair.kick * h, pair.drift * h};
-                timesOf_ = h;
-            }
-            m.kicksAndDrifts(m.model.get(), times_, inverseMass_.data(), isForceFresh, q.data(), p.data(),
-                             force_.data());
-        } else {
-            for (const KickAndDrift<double>& pair : pairs_) {
-                if (!isForceFresh) m.force(m.model.get(), t, q.data(), force_.data());
-                isForceFresh = false;
-                p += (pair.kick * h) * force_;
-                if (pair.drift != 0) q += (pair.drift * h * inverseMass_).cwiseProduct(p);
-            }
+        if (times_.empty()) return;
+        m.kicksAndDrifts(m.model.get(), times_, inverseMass_.data(), isForceFresh, q.data(), p.data(),
+                         force_.data());
+        report.cost.evaluations += static_cast<int>(times_.size()) - isForceFresh;
+        isForceFresh = times_.back().drift == 0;
+    }
+    /// The kicks and drifts of a step, each by its time. The last kick and the first one of the next step use
+    /// the same force.
+    template <class Evaluate, class Kick, class Drift>
+    void takePairs(bool& isForceFresh, Evaluate&& evaluate, Kick&& kick, Drift&& drift) {
+        if (firstDrift_ != 0) {
+            drift(firstDrift_ * this->h());
+            isForceFresh = false;
         }
-        isForceFresh = pairs_.back().drift == 0;
+        for (const KickAndDrift<double>& pair : pairs_) {
+            if (!isForceFresh) evaluate();
+            kick(pair.kick * this->h());
+            isForceFresh = pair.drift == 0;
+            if (!isForceFresh) drift(pair.drift * this->h());
+        }
     }
     /// `besides(isKick, isImplicit, t, s)` before each explicit stage, and after each implicit one: where the
     /// state is that of its derivatives. Its false ends the step.

@@ -228,8 +228,8 @@ inline void outerPlanets(PeerTable& table, double years, FewBodies<Planets::d> s
         others.push_back({"arcs by hand, " + name, [&, knots = table](double n) {
                               return planets.byKeplerArcs(start, end, n, knots);
                           }});
-    for (const char* knots : {"strang", "lobatto-3", "lobatto-4", "gauss-3", "aba-10-4", "aba-8-6-4",
-                              "aba-10-6-4", "srkn-14a", "srkn-19a"})
+    for (const char* knots :
+         {"strang", "lobatto-3", "lobatto-4", "gauss-3", "aba-10-4", "aba-8-6-4", "aba-10-6-4", "srkn-14a"})
         settings.schemes.push_back({std::string("Kepler arcs, ") + knots, keplerArcs(knots)});
     settings.system = system;
     settings.start = start;
@@ -282,8 +282,7 @@ inline void outerPlanetsLong(PeerTable& table) {
                            "Kepler arcs, lobatto-3",
                            "Kepler arcs, lobatto-4",
                            "Kepler arcs, aba-10-4",
-                           "Kepler arcs, aba-10-6-4",
-                           "Kepler arcs, srkn-19a"}});
+                           "Kepler arcs, aba-10-6-4"}});
 }
 
 }  // namespace extremal::bench

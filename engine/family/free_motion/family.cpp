@@ -52,7 +52,7 @@ constexpr std::array<NamedSplitting, 9> freeKnots{
      {"srkn-14a", "F6a", "Blanes-Moan SRKN 14a", srkn14a},
      {"srkn-19a", "F8", "Blanes-Casas SRKN 19a", srkn19a},
      {"srkn-19b", "F8b", "Blanes-Casas SRKN 19b", srkn19b, false}}};
-constexpr std::array<NamedSplitting, 12> keplerKnots{
+constexpr std::array<NamedSplitting, 11> keplerKnots{
     {{"strang", "K2", "Wisdom-Holman", strang},
      {"lobatto-3", "K2l", "Laskar-Robutel SBAB2", [] { return lobattoKicks(3); }, false},
      {"lobatto-4", "K2m", "Laskar-Robutel SBAB3", [] { return lobattoKicks(4); }},
@@ -63,8 +63,7 @@ constexpr std::array<NamedSplitting, 12> keplerKnots{
      {"aba-10-6-4", "K4", "Blanes et al. ABA(10,6,4)", aba1064},
      {"srkn-6b", "K4d", "Blanes-Moan SRKN 6b", srkn6b, false},
      {"srkn-11b", "K6b", "Blanes-Moan SRKN 11b", srkn11b},
-     {"srkn-14a", "K6", "Blanes-Moan SRKN 14a", srkn14a},
-     {"srkn-19a", "K8", "Blanes-Casas SRKN 19a", srkn19a}}};
+     {"srkn-14a", "K6", "Blanes-Moan SRKN 14a", srkn14a}}};
 
 bool isOfArcs(const Settings& space) { return space.type == "kepler-arcs"; }
 
@@ -122,8 +121,7 @@ SpaceEntry keplerArcs() {
                    "other forces kick: explicit.",
                    "Where the knots are on the step and what the kicks weigh: strang, lobatto-3, lobatto-4, "
                    "gauss-2, gauss-3 (order 2), aba-10-4, aba-8-6-4, aba-10-6-4, srkn-6b (4), srkn-11b, "
-                   "srkn-14a (6), srkn-19a (8). Where kicks are weak, the nodes of a rule count more than "
-                   "the order.",
+                   "srkn-14a (6). Where kicks are weak, the nodes of a rule count more than the order.",
                    neededOfArcs);
 }
 

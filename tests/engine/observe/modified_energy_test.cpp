@@ -81,9 +81,19 @@ private slots:
         };
         const Values H = values("stormer-verlet", 0), four = values("stormer-verlet", 2),
                      eight = values("stormer-verlet", 4), most = values("stormer-verlet", 12);
-        QVERIFY(H.range() > 1e-3);                     // measured: 2.3e-3
-        QVERIFY(most.range() <= 2e-11);                // measured: 4.4e-12
-        QVERIFY(most.drift() <= 1e-14);                // measured: 6.5e-15
+        QVERIFY(H.range() > 1e-3);       // measured: 2.3e-3
+        QVERIFY(most.range() <= 2e-11);  // measured: 4.4e-12
+        // Round-off, 2e-15 to 2e-14 as the start has it: the middle one of five.
+        std::vector<double> drifts;
+        for (int i = 0; i < 5; ++i) {
+            std::vector<double> x = keplerX;
+            x[3] += 1e-4 * i;
+            drifts.push_back(
+                along(kepler, *baseline("stormer-verlet", kepler, 0.025), x, 200, Form::legendre, 12)
+                    .drift());
+        }
+        std::nth_element(drifts.begin(), drifts.begin() + 2, drifts.end());
+        QVERIFY(drifts[2] <= 1e-14);                   // measured: 3.9e-15
         QVERIFY(eight.range() < 1e-2 * four.range());  // measured: 8.9e-8 and 2.4e-5
         // Without a generating function there is no such energy.
         const Values rk4 = values("rk4", 12);

@@ -46,8 +46,7 @@ const std::vector<Table>& tables() {
                                            {"aba-10-6-4", aba1064},
                                            {"srkn-6b", srkn6b},
                                            {"srkn-11b", srkn11b},
-                                           {"srkn-14a", srkn14a},
-                                           {"srkn-19a", srkn19a}};
+                                           {"srkn-14a", srkn14a}};
     return all;
 }
 
