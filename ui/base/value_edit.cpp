@@ -90,6 +90,7 @@ ValueEdit::~ValueEdit() {
 void ValueEdit::makeText() {
     text_ = new QLineEdit;
     if (info_.type == FieldType::number) text_->setAlignment(Qt::AlignRight);
+    if (info_.type == FieldType::number && info_.isOptional) text_->setPlaceholderText(tr("default"));
     text_->setMinimumWidth(info_.type == FieldType::numbers ? 72 : 40);
     text_->installEventFilter(this);
     connect(text_, &QLineEdit::editingFinished, this, &ValueEdit::submitText);

@@ -44,7 +44,7 @@ struct NamedSplitting {
 };
 constexpr std::array<NamedSplitting, 9> freeKnots{
     {{"strang", "F2", "Strang splitting", strang},
-     {"suzuki-4", "F4s", "Suzuki 4", suzuki4},
+     {"suzuki-4", "F4s", "Suzuki 4", suzuki4, false},
      {"blanes-moan-s6", "F4b", "Blanes-Moan S6", blanesMoanS6},
      {"srkn-6b", "F4", "Blanes-Moan SRKN 6b", srkn6b},
      {"blanes-moan-s10", "F6b", "Blanes-Moan S10", blanesMoanS10},
@@ -215,6 +215,7 @@ void addRow(ChoiceGrid& grid, const std::string& space, const std::string& title
             std::span<const NamedSplitting> knots) {
     grid.rows.push_back({title, {}});
     for (const NamedSplitting& each : knots) {
+        if (!each.isInGrid) continue;
         ChoiceGrid::Cell cell;
         cell.discretization.space = {space, {{"knots", each.id}}, {}};
         cell.discretization.quadrature = {"auto", {}, {}};
@@ -225,17 +226,14 @@ void addRow(ChoiceGrid& grid, const std::string& space, const std::string& title
     }
 }
 
-/// Of arcs as many as of free motions, those that cost least for their error.
+/// As many of each as fit into a row, those that cost least for their error.
 ChoiceGrid choices(const System& system) {
     ChoiceGrid grid;
     grid.subtitle = "free motion between kicks";
     addRow(grid, "free-motion", "free motion", freeKnots);
     if (!system.parts.find<HeldBodies>()) return grid;
     grid.subtitle = "free motion and Kepler arcs between kicks";
-    std::vector<NamedSplitting> arcs;
-    for (const NamedSplitting& each : keplerKnots)
-        if (each.isInGrid) arcs.push_back(each);
-    addRow(grid, "kepler-arcs", "Kepler arcs", arcs);
+    addRow(grid, "kepler-arcs", "Kepler arcs", keplerKnots);
     return grid;
 }
 

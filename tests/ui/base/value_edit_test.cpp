@@ -72,6 +72,23 @@ private slots:
         info.isOptional = false;
         QCOMPARE(ValueEdit(info).findChild<QSpinBox*>()->minimum(), 2);
     }
+    void aNumberThatIsLeftOutIsShownAsSuch() {
+        FieldInfo info = numberField("mass", "mass term", "", 0, "");
+        info.fallback = nullptr;
+        info.isOptional = true;
+        ValueEdit edit(info);
+        edit.show(Value());
+        auto* const text = edit.findChild<QLineEdit*>();
+        QCOMPARE(text->placeholderText(), QStringLiteral("default"));
+        QVERIFY(text->text().isEmpty());
+        QSignalSpy edited(&edit, &ValueEdit::edited);
+        text->setText("0.5");
+        emit text->editingFinished();
+        QCOMPARE(edited[0][0].value<Value>().asNumber(), 0.5);
+        text->setText("");
+        emit text->editingFinished();
+        QVERIFY(edited[1][0].value<Value>().isNull());
+    }
 };
 
 EXTREMAL_TEST(ValueEditTest)
