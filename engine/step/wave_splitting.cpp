@@ -36,6 +36,15 @@ inline void kickLanes(const double* V, double density, double factor, double sca
     }
 }
 
+/// v_i *= phases_i of so many complex numbers.
+inline void multiplyBy(const double* phases, std::size_t n, double* v) {
+    for (std::size_t i = 0; i < 2 * n; i += 2) {
+        const double re = v[i], im = v[i + 1];
+        v[i] = re * phases[i] - im * phases[i + 1];
+        v[i + 1] = re * phases[i + 1] + im * phases[i];
+    }
+}
+
 class WaveSplitting final : public WaveStep {
 public:
     /// |psi| does not change in a kick, so that g |psi|^2 acts as V does; a rotation commutes with the
@@ -131,13 +140,8 @@ private:
              psi_.size(), reinterpret_cast<double*>(psi_.data()));
     }
     static void multiply(Complex* v, const std::vector<Complex>& phases) {
-        double* x = reinterpret_cast<double*>(v);
-        const double* p = reinterpret_cast<const double*>(phases.data());
-        for (std::size_t i = 0; i < 2 * phases.size(); i += 2) {
-            const double re = x[i], im = x[i + 1];
-            x[i] = re * p[i] - im * p[i + 1];
-            x[i + 1] = re * p[i + 1] + im * p[i];
-        }
+        static const auto call = ForThisMachine<&multiplyBy>::call();
+        call(reinterpret_cast<const double*>(phases.data()), phases.size(), reinterpret_cast<double*>(v));
     }
 
     Splitting splitting_;

@@ -13,8 +13,8 @@
 /// methods, J. Comput. Appl. Math. 142 (2002) 313-330, tables 2 and 3. The coefficients are printed to 15
 /// digits; those that follow from consistency (sums equal to 1) are computed. Those of order 8 are A19 and B19
 /// of S. Blanes, F. Casas and A. Escorihuela-Tomas, Runge-Kutta-Nystrom symplectic splitting methods of order
-/// 8, Appl. Numer. Math. 182 (2022) 14-27, tables 4 and 5, printed to 30. tests/engine/tableau checks the order
-/// conditions.
+/// 8, Appl. Numer. Math. 182 (2022) 14-27, arXiv 2202.01541, tables 4 and 5, printed to 30.
+/// tests/engine/tableau checks the order conditions.
 #pragma once
 
 #include <memory>
