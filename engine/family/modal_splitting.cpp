@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/add_scaled.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes_trigonometry.hpp"
 #include "engine/family/fourier_grid.hpp"
@@ -23,9 +24,6 @@ void turnRows(double* u, double* v, const double* own, const double* other, cons
         u[i] = own[i] * before + other[i] * v[i];
         v[i] = back[i] * before + own[i] * v[i];
     }
-}
-void addRows(double* to, const double* from, double by, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i) to[i] += by * from[i];
 }
 
 class ModalSplitting final : public ModalMarch<FourierGrid> {
@@ -119,8 +117,7 @@ private:
         turn(u.data(), v.data(), by.own.data(), by.other.data(), by.back.data(), u.size());
     }
     void kick(double fraction, std::vector<double>& v) const {
-        static const auto add = ForThisMachine<&addRows>::call();
-        add(v.data(), G_.data(), fraction * h(), v.size());
+        addScaled(v.data(), fraction * h(), G_.data(), v.size());
     }
 
     /// W'' at every kick of the last step, which is taken once more.

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/registers.hpp"
 #include "engine/solve/correction_size.hpp"
 
 namespace extremal {
@@ -19,36 +19,21 @@ struct Changes {
     double* defect;        ///< 0 where all differences are finite, else not a number
 };
 
-/// The registers of an instruction set, as of the products of nodes (core/algebra/small_product.cpp). They
-/// are handed on by reference alone: how they are returned depends on the set.
-struct Two {
-    using Pack = double __attribute__((vector_size(16)));
-    using Bits = long long __attribute__((vector_size(16)));
-};
-struct Four {
-    using Pack = double __attribute__((vector_size(32)));
-    using Bits = long long __attribute__((vector_size(32)));
-};
-struct Eight {
-    using Pack = double __attribute__((vector_size(64)));
-    using Bits = long long __attribute__((vector_size(64)));
-};
+using namespace registers;
 
 /// most = max(most, |v|), which a NaN escapes.
-template <class Register>
-inline void raise(typename Register::Pack& most, const typename Register::Pack& v) {
-    using Bits = typename Register::Bits;
-    const auto size = reinterpret_cast<typename Register::Pack>(reinterpret_cast<const Bits&>(v) &
-                                                                std::numeric_limits<long long>::max());
+template <class Pack>
+inline void raise(Pack& most, const Pack& v) {
+    const auto size = reinterpret_cast<Pack>(reinterpret_cast<const Mask<Pack>&>(v) &
+                                             std::numeric_limits<long long>::max());
     most = size > most ? size : most;
 }
 
 /// to_k = the largest entry of packs[k], as many as a pack has entries: those of two at a time are halved.
-template <class Register>
-inline void largestOfEach(typename Register::Pack* packs, double* to) {
-    using Pack = typename Register::Pack;
-    constexpr int width = sizeof(Pack) / sizeof(double);
-    typename Register::Bits even, odd;
+template <class Pack>
+inline void largestOfEach(Pack* packs, double* to) {
+    constexpr int width = lanesOf<Pack>;
+    Mask<Pack> even, odd;
     for (int k = 0; k < width; ++k) even[k] = 2 * k, odd[k] = 2 * k + 1;
     for (int n = width / 2; n > 0; n /= 2)
         for (int k = 0; k < n; ++k) {
@@ -56,13 +41,12 @@ inline void largestOfEach(typename Register::Pack* packs, double* to) {
                        other = __builtin_shuffle(packs[2 * k], packs[2 * k + 1], odd);
             packs[k] = other > one ? other : one;
         }
-    std::memcpy(to, packs, sizeof(Pack));
+    store(to, packs[0]);
 }
 
-template <class Register>
+template <class Pack>
 inline void changesOf(const Changes& c) {
-    using Pack = typename Register::Pack;
-    constexpr int width = sizeof(Pack) / sizeof(double);
+    constexpr int width = lanesOf<Pack>;
     Pack defect{};
     for (int first = 0; first < c.columns; first += width) {
         Pack moved[width], size[width];
@@ -72,19 +56,19 @@ inline void changesOf(const Changes& c) {
             Pack most{}, largest{};
             for (int i = 0; i < rows; i += width) {
                 Pack a, b;
-                std::memcpy(&a, now + i, sizeof a);
-                std::memcpy(&b, before + i, sizeof b);
+                load(a, now + i);
+                load(b, before + i);
                 const Pack difference = a - b;
                 defect += difference - difference;
-                raise<Register>(most, difference);
-                raise<Register>(largest, a);
-                raise<Register>(largest, b);
+                raise(most, difference);
+                raise(largest, a);
+                raise(largest, b);
             }
             moved[k] = most;
             size[k] = largest;
         }
-        largestOfEach<Register>(moved, c.moved + first);
-        largestOfEach<Register>(size, c.size + first);
+        largestOfEach(moved, c.moved + first);
+        largestOfEach(size, c.size + first);
     }
     *c.defect = 0;
     for (int k = 0; k < width; ++k) *c.defect += defect[k];

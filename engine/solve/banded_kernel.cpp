@@ -2,24 +2,14 @@
 #include "engine/solve/banded_kernel.hpp"
 
 #include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/registers.hpp"
 
 namespace extremal {
 namespace {
 
-/// Vectors of the machine. Loops over arrays of them are unrolled and stay in registers, which loops over
-/// plain doubles that live through a loop do not.
-using Two [[gnu::vector_size(16)]] = double;
-using Four [[gnu::vector_size(32)]] = double;
-using Eight [[gnu::vector_size(64)]] = double;
-
-template <class V>
-[[gnu::always_inline]] inline void load(V& to, const double* from) {
-    __builtin_memcpy(&to, from, sizeof(V));
-}
-template <class V>
-[[gnu::always_inline]] inline void store(double* to, const V& from) {
-    __builtin_memcpy(to, &from, sizeof(V));
-}
+// Loops over arrays of registers are unrolled and stay there, which loops over plain doubles that live
+// through a loop do not.
+using namespace registers;
 
 /// Adds v, or both halves of what has two.
 [[gnu::always_inline]] inline void addFolded(Four& to, const Four& v) { to += v; }

@@ -7,19 +7,12 @@
 #include <cstring>
 
 #include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/registers.hpp"
 
 namespace extremal {
 namespace {
 
-/// The registers of an instruction set.
-using Two = double __attribute__((vector_size(16)));
-using Four = double __attribute__((vector_size(32)));
-using Eight = double __attribute__((vector_size(64)));
-
-template <class Pack>
-using Mask = decltype(Pack{} < Pack{});
-template <class Pack>
-constexpr std::size_t lanesOf = sizeof(Pack) / sizeof(double);
+using namespace registers;
 
 constexpr int mostHeight = 8;  ///< registers of a column
 constexpr std::size_t inWholeRegisters(std::size_t size) {
@@ -31,14 +24,10 @@ inline To as(const From& from) {
     return std::bit_cast<To>(from);
 }
 template <class Pack>
-inline Pack load(const double* from) {
+inline Pack loaded(const double* from) {
     Pack pack;
-    std::memcpy(&pack, from, sizeof pack);
+    load(pack, from);
     return pack;
-}
-template <class Pack>
-inline void store(double* to, const Pack& pack) {
-    std::memcpy(to, &pack, sizeof pack);
 }
 
 /// The matrix is replaced by its factors, whose columns have whole registers.
@@ -93,7 +82,7 @@ inline void factorise(const Factorisation& f) {
         for (std::size_t i = 0; i < f.size; ++i) f.work[j * f.stride + i] = f.matrix[j * f.size + i];
     Waiting<Pack, height> rows(f.size);
     Pack next[height], left[height];
-    for (int r = 0; r < height; ++r) next[r] = load<Pack>(f.work + static_cast<std::size_t>(r) * lanes);
+    for (int r = 0; r < height; ++r) next[r] = loaded<Pack>(f.work + static_cast<std::size_t>(r) * lanes);
     std::size_t best = rows.largest(next);
     for (std::size_t k = 0; k < f.size; ++k) {
         double* column = f.work + k * f.stride;
@@ -117,7 +106,7 @@ inline void factorise(const Factorisation& f) {
         double factor = column[best];
         for (int r = 0; r < height; ++r) {
             double* const at = column + static_cast<std::size_t>(r) * lanes;
-            next[r] = load<Pack>(at) - factor * left[r];
+            next[r] = loaded<Pack>(at) - factor * left[r];
             store(at, next[r]);
         }
         const std::size_t after = rows.largest(next);
@@ -126,7 +115,7 @@ inline void factorise(const Factorisation& f) {
             factor = column[best];
             for (int r = 0; r < height; ++r) {
                 double* const at = column + static_cast<std::size_t>(r) * lanes;
-                store(at, Pack(load<Pack>(at) - factor * left[r]));
+                store(at, Pack(loaded<Pack>(at) - factor * left[r]));
             }
         }
         best = after;
@@ -155,10 +144,10 @@ inline void substitute(const Solution& s) {
     for (std::size_t i = 0; i < lanes; ++i) lane[i] = static_cast<long long>(i);
     Pack factor[lanes];
     const auto diagonal = [&](std::size_t r, std::size_t i, const Mask<Pack>& others) {
-        return as<Pack>(as<Mask<Pack>>(load<Pack>(s.factors + (r + i) * s.stride + r)) & others);
+        return as<Pack>(as<Mask<Pack>>(loaded<Pack>(s.factors + (r + i) * s.stride + r)) & others);
     };
     for (std::size_t r = 0; r < s.size; r += lanes) {
-        Pack own = load<Pack>(right + r);
+        Pack own = loaded<Pack>(right + r);
 #pragma GCC unroll 8
         for (std::size_t i = 0; i < lanes; ++i) {
             if (r + i >= s.size) break;
@@ -167,15 +156,15 @@ inline void substitute(const Solution& s) {
         }
         store(right + r, own);
         for (std::size_t below = r + lanes; below < s.size; below += lanes) {
-            Pack sum = load<Pack>(right + below);
+            Pack sum = loaded<Pack>(right + below);
             for (std::size_t i = 0; i < lanes; ++i)
-                sum -= factor[i] * load<Pack>(s.factors + (r + i) * s.stride + below);
+                sum -= factor[i] * loaded<Pack>(s.factors + (r + i) * s.stride + below);
             store(right + below, sum);
         }
     }
     for (std::size_t r = s.stride; r > 0;) {
         r -= lanes;
-        Pack own = load<Pack>(right + r);
+        Pack own = loaded<Pack>(right + r);
 #pragma GCC unroll 8
         for (std::size_t j = 0; j < lanes; ++j) {
             const std::size_t i = lanes - 1 - j;
@@ -186,9 +175,9 @@ inline void substitute(const Solution& s) {
         for (std::size_t i = 0; i < lanes && r + i < s.size; ++i) s.x[r + i] = factor[i][0];
         const std::size_t count = std::min(lanes, s.size - r);
         for (std::size_t above = 0; above < r; above += lanes) {
-            Pack sum = load<Pack>(right + above);
+            Pack sum = loaded<Pack>(right + above);
             for (std::size_t i = count; i-- > 0;)
-                sum -= factor[i] * load<Pack>(s.factors + (r + i) * s.stride + above);
+                sum -= factor[i] * loaded<Pack>(s.factors + (r + i) * s.stride + above);
             store(right + above, sum);
         }
     }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/core/algebra/add_scaled.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/corrections.hpp"
 #include "engine/integrator/many_states.hpp"
@@ -37,15 +38,7 @@ void multiply(const Eigen::MatrixXd& jacobian, bool isKick, bool isOwn, bool isI
 
 constexpr int many = TakesManyStates::together;
 
-/// y += s x of one coordinate of all motions.
-void addTo(double* y, double s, const double* x) {
-    for (int i = 0; i < many; ++i) y[i] += s * x[i];
-}
-
-/// p += s f and q += s p / m of any number of coordinates.
-void kickAll(double* p, double s, const double* f, int size) {
-    for (int i = 0; i < size; ++i) p[i] += s * f[i];
-}
+/// q += s p / m.
 void driftAll(double* q, double s, const double* perMass, const double* p, int size) {
     for (int i = 0; i < size; ++i) q[i] += (s * perMass[i]) * p[i];
 }
@@ -115,19 +108,17 @@ public:
     bool advanceMany(double* x, long long steps) override {
         const auto& m = this->mechanics_;
         if (!m.isSeparable || m.isTimeDependent || !m.forces || !hasForcesOf(x)) return false;
-        const auto add = ForThisMachine<&addTo>::call();
         const std::size_t half = static_cast<std::size_t>(this->d()) * many;
         bool isForceFresh = true;
         for (long long step = 0; step < steps; ++step)
             takePairs(
                 isForceFresh,
                 [&] { m.forces(m.model.get(), manyTimes_.data(), many, x, manyForces_.data()); },
-                [&](double s) {
-                    for (std::size_t k = 0; k < half; k += many) add(x + half + k, s, &manyForces_[k]);
-                },
+                [&](double s) { addScaled(x + half, s, manyForces_.data(), half); },
                 [&](double s) {
                     for (std::size_t k = 0; k < half; k += many)
-                        add(x + k, s * inverseMass_(static_cast<Eigen::Index>(k / many)), x + half + k);
+                        addScaled(x + k, s * inverseMass_(static_cast<Eigen::Index>(k / many)), x + half + k,
+                                  many);
                 });
         return true;
     }
@@ -207,7 +198,7 @@ private:
                 },
                 [&](double s) {
                     if constexpr (D == Eigen::Dynamic)
-                        ForThisMachine<&kickAll>::call()(p.data(), s, force_.data(), this->d());
+                        addScaled(p.data(), s, force_.data(), static_cast<std::size_t>(this->d()));
                     else
                         p += s * force_;
                 },

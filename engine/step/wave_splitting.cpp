@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/core/algebra/complex_vectors.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes_trigonometry.hpp"
 #include "engine/model/wave/interaction.hpp"
@@ -33,15 +34,6 @@ inline void kickLanes(const double* V, double density, double factor, double sca
             at[2 * k] = x.lane[k];
             at[2 * k + 1] = y.lane[k];
         }
-    }
-}
-
-/// v_i *= phases_i of so many complex numbers.
-inline void multiplyBy(const double* phases, std::size_t n, double* v) {
-    for (std::size_t i = 0; i < 2 * n; i += 2) {
-        const double re = v[i], im = v[i + 1];
-        v[i] = re * phases[i] - im * phases[i + 1];
-        v[i + 1] = re * phases[i + 1] + im * phases[i];
     }
 }
 
@@ -140,8 +132,7 @@ private:
              psi_.size(), reinterpret_cast<double*>(psi_.data()));
     }
     static void multiply(Complex* v, const std::vector<Complex>& phases) {
-        static const auto call = ForThisMachine<&multiplyBy>::call();
-        call(reinterpret_cast<const double*>(phases.data()), phases.size(), reinterpret_cast<double*>(v));
+        ComplexVectors::ofThisMachine().multiply(v, phases.data(), phases.size());
     }
 
     Splitting splitting_;

@@ -132,25 +132,20 @@ public:
     /// One row: a problem, with the index of its error in the curves, against the peers whose names begin so.
     void add(const std::string& problem, const std::vector<Curve>& curves, std::size_t error,
              const std::string& peers = "") {
-        Row row{problem, {}, {}};
-        for (const double target : targets) {
-            Cell cell;
-            for (const Curve& curve : curves) {
-                if (error >= curve.errors.size()) continue;
-                if (curve.isPeer && !curve.name.starts_with(peers)) continue;
-                const double cost = costAt(curve.errors[error], target);
-                Best& best = curve.isPeer ? cell.peer : cell.ours;
-                if (cost < best.seconds) best = {cost, curve.name};
-                Best& kind = !curve.isPeer || isOfFramework(curve.name) ? cell.framework : cell.others;
-                if (cost < kind.seconds) kind = {cost, curve.name};
-            }
-            row.cells.push_back(cell);
-        }
+        Row row{problem, std::vector<Cell>(std::size(targets)), {}};
         for (const Curve& curve : curves) {
             if (error >= curve.errors.size()) continue;
             row.curves.push_back({curve.name, curve.isPeer, {}});
-            for (const double target : targets)
-                row.curves.back().seconds.push_back(costAt(curve.errors[error], target));
+            for (std::size_t i = 0; i < std::size(targets); ++i) {
+                const double cost = costAt(curve.errors[error], targets[i]);
+                row.curves.back().seconds.push_back(cost);
+                if (curve.isPeer && !curve.name.starts_with(peers)) continue;
+                const bool isOurKind = !curve.isPeer || isOfFramework(curve.name);
+                Cell& cell = row.cells[i];
+                for (Best* best :
+                     {curve.isPeer ? &cell.peer : &cell.ours, isOurKind ? &cell.framework : &cell.others})
+                    if (cost < best->seconds) *best = {cost, curve.name};
+            }
         }
         rows_.push_back(row);
         print(row);

@@ -6,33 +6,28 @@
 /// modes than the model (the key `modes`).
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "engine/model/wave/basis/wisdom.hpp"
+#include "engine/model/wave/resampling.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/wave_by_hand.hpp"
 #include "tests/bench/wave_costs.hpp"
 
 namespace extremal::bench {
 
-/// Modes k = 0, 1, ..., -2, -1 among those of more.
-inline std::vector<double> amongMore(const std::vector<double>& few, std::size_t size) {
-    std::vector<double> all(size);
-    const auto half = static_cast<std::ptrdiff_t>(few.size() / 2);
-    std::copy_n(few.begin(), half, all.begin());
-    std::copy_n(few.end() - half, half, all.end() - half);
-    return all;
-}
-
 /// By `modes` of its own, from the same packet.
 inline Method withModes(int modes, const Method& method) {
     WaveProblem own{"", onCircle("50*(1 - cos(x))", 1, modes), {}, 1, {}, 0};
     own.start = packet(own.system, 20, 5);
     return [=](const WaveProblem& whole, int n) {
-        const std::vector<double> x = method(own, n);
-        return x.empty() ? x : amongMore(x, whole.exact.size());
+        const std::vector<double> few = method(own, n);
+        std::vector<double> all(few.empty() ? 0 : whole.exact.size());
+        if (!few.empty())
+            WaveResampling(*own.system.hamiltonian(), *whole.system.hamiltonian())
+                .write(coefficients(few.data()), coefficients(all.data()));
+        return all;
     };
 }
 

@@ -2,17 +2,15 @@
 #include "engine/core/algebra/complex_vectors.hpp"
 
 #include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/registers.hpp"
 
 namespace extremal {
 namespace {
 
 using Complex = std::complex<double>;
-using Eight [[gnu::vector_size(64)]] = double;
+using namespace registers;
 constexpr std::size_t lanes = 8;
 
-[[gnu::always_inline]] inline void load(Eight& to, const double* from) {
-    __builtin_memcpy(&to, from, sizeof(Eight));
-}
 /// Real and imaginary parts in each other's place.
 [[gnu::always_inline]] inline void exchange(Eight& v) {
     v = __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6);
@@ -66,7 +64,7 @@ void addLanes(Complex* to, Complex factor, const Complex* from, std::size_t n) {
         v += straight * u;
         exchange(u);
         v += crossed * u;
-        __builtin_memcpy(y + i, &v, sizeof(Eight));
+        store(y + i, v);
     }
     for (; i < 2 * n; i += 2) {
         const double xr = x[i], xi = x[i + 1];
@@ -75,11 +73,22 @@ void addLanes(Complex* to, Complex factor, const Complex* from, std::size_t n) {
     }
 }
 
+void multiplyLanes(Complex* to, const Complex* by, std::size_t n) {
+    double* y = reinterpret_cast<double*>(to);
+    const double* x = reinterpret_cast<const double*>(by);
+    for (std::size_t i = 0; i < 2 * n; i += 2) {
+        const double re = y[i], im = y[i + 1];
+        y[i] = re * x[i] - im * x[i + 1];
+        y[i + 1] = re * x[i + 1] + im * x[i];
+    }
+}
+
 }  // namespace
 
 const ComplexVectors& ComplexVectors::ofThisMachine() {
     static const ComplexVectors all{ForThisMachine<&dotLanes>::call(), ForThisMachine<&squareLanes>::call(),
-                                    ForThisMachine<&addLanes>::call()};
+                                    ForThisMachine<&addLanes>::call(),
+                                    ForThisMachine<&multiplyLanes>::call()};
     return all;
 }
 

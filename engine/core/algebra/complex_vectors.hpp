@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Inner products and sums of long complex vectors, compiled for several instruction sets
-/// (core/algebra/instruction_set.hpp) and with the same bits on all of them: sums run in eight parts,
+/// Inner products, sums and products by entries of long complex vectors, compiled for several instruction
+/// sets (core/algebra/instruction_set.hpp) and with the same bits on all of them: sums run in eight parts,
 /// whatever the width of the machine's vectors.
 #pragma once
 
@@ -18,6 +18,8 @@ struct ComplexVectors {
     void (*square)(const Complex* a, std::size_t n, double* square) = nullptr;
     /// y <- y + factor x.
     void (*add)(Complex* y, Complex factor, const Complex* x, std::size_t n) = nullptr;
+    /// y_i <- y_i x_i.
+    void (*multiply)(Complex* y, const Complex* x, std::size_t n) = nullptr;
 
     /// Those of this machine.
     static const ComplexVectors& ofThisMachine();

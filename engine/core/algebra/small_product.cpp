@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/algebra/small_product.hpp"
 
-#include <cstring>
 #include <utility>
 
 #include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/registers.hpp"
 
 namespace extremal {
 namespace {
 
-/// The registers of an instruction set. Wider vectors than the machine has are no substitute: the compiler
-/// takes those apart in memory, at four times the cost.
-using Two = double __attribute__((vector_size(16)));
-using Four = double __attribute__((vector_size(32)));
-using Eight = double __attribute__((vector_size(64)));
-
-template <class Pack>
-constexpr int lanesOf = sizeof(Pack) / sizeof(double);
+using namespace registers;
 
 /// Adds the first `count` of `sum`.
 template <class Pack>
@@ -26,9 +19,9 @@ inline void addTo(double* C, const Pack& sum, int count) {
         return;
     }
     Pack before;
-    std::memcpy(&before, C, sizeof before);
+    load(before, C);
     before += sum;
-    std::memcpy(C, &before, sizeof before);
+    store(C, before);
 }
 
 // Every entry is a sum of its own in the order of the terms, whatever the tile. An addition has to wait for
@@ -43,7 +36,7 @@ inline void tile(const SmallProduct& p, int r, int c) {
     const double* B = p.B + static_cast<long>(c) * p.strideB;
     for (int i = 0; i < p.depth; ++i, A += p.stride) {
         Pack a;
-        std::memcpy(&a, A, sizeof a);
+        load(a, A);
         for (int j = 0; j < width; ++j) sum[j] += a * B[static_cast<long>(j) * p.strideB + i];
     }
     for (int j = 0; j < width; ++j) addTo(p.C + static_cast<long>(c + j) * p.strideC + r, sum[j], p.rows - r);
@@ -67,7 +60,7 @@ inline void strip(const SmallProduct& p, int r) {
     for (int i = 0; i < p.depth; ++i, A += p.stride)
         for (int k = 0; k < height; ++k) {
             Pack a;
-            std::memcpy(&a, A + k * lanesOf<Pack>, sizeof a);
+            load(a, A + k * lanesOf<Pack>);
             sum[k] += a * p.B[i];
         }
     for (int k = 0; k < height; ++k)
@@ -96,7 +89,7 @@ inline void sumOfTwo(const SumOfTwo& p) {
             const double* column = A + r;
             for (int i = 0; i < p.depth; ++i, column += p.stride) {
                 Pack term;
-                std::memcpy(&term, column, sizeof term);
+                load(term, column);
                 term *= a[i];
                 const Pack next = sum + term, back = next - sum;
                 lost += (sum - (next - back)) + (term - back);

@@ -4,29 +4,18 @@
 #include <cstdint>
 
 #include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/registers.hpp"
 
 namespace extremal {
 namespace {
 
-// Loops over vectors of the width of the machine: on wider ones than it has the compiler loses half the
-// speed, and loops that it is left to vectorise itself do not start where the stores are aligned.
-using TwoCells [[gnu::vector_size(16)]] = double;
-using FourCells [[gnu::vector_size(32)]] = double;
-using EightCells [[gnu::vector_size(64)]] = double;
+// Loops that the compiler is left to vectorise itself do not start where the stores are aligned.
+using namespace registers;
 
 /// A row of values and the rows beside it.
 struct CellRow {
     const double *here, *below, *above;
 };
-
-template <class V>
-[[gnu::always_inline]] inline void loadCells(V& to, const double* from) {
-    __builtin_memcpy(&to, from, sizeof(V));
-}
-template <class V>
-[[gnu::always_inline]] inline void storeCells(const V& from, double* to) {
-    __builtin_memcpy(to, &from, sizeof(V));
-}
 
 /// a of the cells from i, whose neighbours start at `left` and `right`; `u` is set to their values.
 template <class V>
@@ -34,11 +23,11 @@ template <class V>
                                                    std::size_t i, std::size_t left, std::size_t right, V& u,
                                                    V& a) {
     V l, r, below, above;
-    loadCells(u, row.here + i);
-    loadCells(l, row.here + left);
-    loadCells(r, row.here + right);
-    loadCells(below, row.below + i);
-    loadCells(above, row.above + i);
+    load(u, row.here + i);
+    load(l, row.here + left);
+    load(r, row.here + right);
+    load(below, row.below + i);
+    load(above, row.above + i);
     a = c.perX * (l + r) + c.perY * (below + above) - 2 * (c.perX + c.perY) * u -
         u * (c.slope.cubic * u * u + c.slope.linear);
 }
@@ -49,11 +38,11 @@ template <class V>
                                              std::size_t left, std::size_t right) {
     V u, a, velocity;
     accelerateCells(c, row, i, left, right, u, a);
-    loadCells(velocity, v + i);
+    load(velocity, v + i);
     velocity += c.h / 2 * a;
-    storeCells(velocity, nextV + i);
+    store(nextV + i, velocity);
     u += c.h * velocity;
-    storeCells(u, nextU + i);
+    store(nextU + i, u);
 }
 
 /// Adds 0 v' to `zeros`: not a number where a velocity is not finite.
@@ -63,9 +52,9 @@ template <class V>
                                              std::size_t right, V& zeros) {
     V u, a, velocity;
     accelerateCells(c, row, i, left, right, u, a);
-    loadCells(velocity, velocities + i);
+    load(velocity, velocities + i);
     velocity += c.h / 2 * a;
-    storeCells(velocity, velocities + i);
+    store(velocities + i, velocity);
     zeros += 0 * velocity;
 }
 
@@ -139,8 +128,7 @@ void stepRows(const PlaneLeapfrogKernel* kernel, const double* u, const double* 
 }  // namespace
 
 bool PlaneLeapfrogKernel::step(const double* u, const double* v, double* nextU, double* nextV) const {
-    static const auto call =
-        ForThisMachine<&stepRows<EightCells>, &stepRows<FourCells>, &stepRows<TwoCells>>::call();
+    static const auto call = ForThisMachine<&stepRows<Eight>, &stepRows<Four>, &stepRows<Two>>::call();
     double zeros = 0;
     call(this, u, v, nextU, nextV, &zeros);
     return zeros == 0;

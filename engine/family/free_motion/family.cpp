@@ -183,23 +183,28 @@ std::string unknownBecause(const System& system) {
                  "on the place alone";
 }
 
-/// Why a space cannot have the curves of a step; empty if it can.
-std::string mismatchOf(const Discretization& d, const System& system) {
+/// Why a space cannot have the curves of a step; nothing if it can.
+std::optional<Problem> problemOf(const Discretization& d, const System& system) {
     if (d.space.find("modes") && !system.parts.find<ScalarField>())
-        return "modes are for fields over an interval; others have as many as their model says";
+        return Problem{"/space/modes",
+                       "modes are for fields over an interval; others have as many as their model says",
+                       "leave it out"};
     if (d.space.find("mass") && !isField(system))
-        return "a mass term is for fields; in other systems all of the potential is in the kicks";
-    if (!isOfArcs(d.space) || system.parts.find<HeldBodies>()) return {};
-    return "Kepler arcs are for " + std::string(neededOfArcs);
+        return Problem{"/space/mass",
+                       "a mass term is for fields; in other systems all of the potential is in the kicks",
+                       "leave it out"};
+    if (isOfArcs(d.space) && !system.parts.find<HeldBodies>())
+        return Problem{"/space/type", "Kepler arcs are for " + std::string(neededOfArcs), "free-motion"};
+    return {};
+}
+std::string mismatchOf(const Discretization& d, const System& system) {
+    const auto problem = problemOf(d, system);
+    return problem ? problem->message : std::string();
 }
 
 std::unique_ptr<Integrator> makeOn(const System& system, const Discretization& d, double step) {
     const Splitting splitting = splittingOf(d.space).make();
-    if (const std::string problem = mismatchOf(d, system); !problem.empty())
-        throw InvalidScene(isOfArcs(d.space)       ? "/space/type"
-                           : d.space.find("modes") ? "/space/modes"
-                                                   : "/space/mass",
-                           problem, isOfArcs(d.space) ? "free-motion" : "leave it out");
+    if (auto problem = problemOf(d, system)) throw InvalidScene({*std::move(problem)});
     if (isOfArcs(d.space)) return makeKeplerMotion(system, system.part<HeldBodies>(), splitting, step);
     if (system.parts.find<Wave>()) return makeWaveSplitting(system, step, splitting);
     if (isField(system)) {

@@ -12,12 +12,13 @@
 
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes_trigonometry.hpp"
+#include "engine/core/algebra/registers.hpp"
 
 namespace extremal {
 namespace {
 
 // Vectors by name: of loops over eight numbers the compiler makes scalars here.
-using Eight [[gnu::vector_size(64)]] = double;
+using registers::Eight;
 using EightBits [[gnu::vector_size(64)]] = std::uint64_t;
 
 /// Whether all are between the limits; false of what is not a number.

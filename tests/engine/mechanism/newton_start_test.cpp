@@ -94,7 +94,7 @@ private slots:
         qInfo("apart %.1e in q, %.1e in p", apart.q, apart.p);
         QVERIFY(apart.q < 1e-8 && apart.p < 1e-7);
     }
-    /// A polynomial of degree 8 that goes on far swings to roots that are none of the motion.
+    /// A polynomial of degree 8 that goes on far swings to roots that do not belong to the motion.
     void otherIncrementsAreStartedAnew() {
         for (const int degree : {4, 8}) {
             const Totals all = solve(fourBarInOneAngle(), degree, 10, 300),

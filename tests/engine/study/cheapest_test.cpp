@@ -243,15 +243,8 @@ private slots:
             QVERIFY(workOf(row.result, 1) >= before);
             before = workOf(row.result, 1);
         }
-        // Models of less and less that is left out, of which a rung may need none.
-        const std::vector<std::string> models{"averaged", "multiscale-averaged", "multiscale-normal-form-1",
-                                              "multiscale-normal-form-2", "multiscale-normal-form-3"};
-        QVERIFY(labels.size() >= 3 && labels.front() == models.front() && labels.back() == models.back());
-        auto model = models.begin();
-        for (const std::string& label : labels) {
-            model = std::find(model, models.end(), label);
-            QVERIFY2(model != models.end(), label.c_str());
-        }
+        QCOMPARE(labels,
+                 (std::vector<std::string>{"averaged", "multiscale-averaged", "multiscale-normal-form-3"}));
         // What reaches a smaller wish for less serves the larger one as well.
         Sweep dearer = ladder;
         const std::size_t last = options.rungs.size() - 1;

@@ -42,7 +42,7 @@ struct Instruction {
 };
 
 /// Instructions of one operation that do not read each other's results; the registers that they write are
-/// side by side, and those of several instructions are none of those that they read.
+/// side by side, and a group of several never writes to a register that it reads.
 struct TapeGroup {
     /// Of all instructions together: one register, registers side by side, or neither.
     enum class Operand : std::uint8_t { single, sideBySide, scattered };
