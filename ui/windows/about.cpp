@@ -27,6 +27,7 @@ const std::vector<std::pair<QString, QString>>& licences() {
         {"CLI11", "BSD-3-Clause"},
         {"GSL", "GPL-3.0-or-later"},
         {"SUNDIALS", "BSD-3-Clause"},
+        {"Xbyak", "BSD-3-Clause"},
         {"libquadmath", "LGPL-2.1-or-later"},
         {"Mesa (OSMesa, EGL)", "MIT"},
         {"pybind11", "BSD-3-Clause"},

@@ -27,7 +27,10 @@ void runEight(const Tape& tape, const Fill& fill, const Write& write) {
         r = many.data();
     }
     fill(r);
-    detail::runInGroups(tape, r);
+    if (const auto code = tape.forEight())
+        code(r->lane.data());
+    else
+        detail::runInGroups(tape, r);
     for (std::size_t k = 0; k < tape.outputs(); ++k) write(k, tape.output(k, r));
 }
 /// Eight numbers as one, which loops over them are not always compiled to.

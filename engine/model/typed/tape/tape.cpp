@@ -107,6 +107,8 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     tape.registers_ = placing.end();
     for (const std::uint32_t v : line.outputs) tape.outputs_.push_back(placing.of(v));
     tape.findStretches();
+    if (tape.groups_.empty()) tape.one_ = std::make_shared<MachineCode>(false);
+    tape.eight_ = std::make_shared<MachineCode>(true);
     return tape;
 }
 
@@ -135,10 +137,9 @@ void Tape::copyOutputs(std::size_t first, std::size_t count, const double* r, do
 }
 
 void Tape::run(double* r) const {
-    if (groups_.empty())
-        detail::run(*this, r);
-    else
-        runGroups(*this, r);
+    if (!groups_.empty()) return runGroups(*this, r);
+    if (const auto code = one_ ? one_->of(*this) : nullptr) return code(r);
+    detail::run(*this, r);
 }
 
 }  // namespace extremal::typed

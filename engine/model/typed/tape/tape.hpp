@@ -2,12 +2,12 @@
 /// A formula as a straight line of instructions over a small array of registers.
 ///
 /// Registers: the inputs (q, v, t), then the constants, then intermediate values, reused when they are no
-/// longer needed. Every common part is computed once; integer powers are products, x^(n/2) products of one
-/// square root, and sin and cos of one angle a single call. Of long formulas with many parts alike, such as
-/// the sums over a chain, instructions are in groups that are carried out as loops (tape_groups.hpp), and
-/// registers are given out so that what a loop reads and writes stands side by side where it can. Evaluation
-/// allocates nothing and changes nothing but the caller's registers, so any number of threads may share a
-/// tape.
+/// longer needed. Tapes that are carried out again become code of the processor (machine_code.hpp). Every
+/// common part is computed once; integer powers are products, x^(n/2) products of one square root, and sin
+/// and cos of one angle a single call. Of long formulas with many parts alike, such as the sums over a chain,
+/// instructions are in groups that are carried out as loops (tape_groups.hpp), and registers are given out so
+/// that what a loop reads and writes stands side by side where it can. Evaluation allocates nothing and
+/// changes nothing but the caller's registers, so any number of threads may share a tape.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "engine/model/typed/graph.hpp"
+#include "engine/model/typed/tape/machine_code.hpp"
 
 namespace extremal::typed {
 
@@ -73,6 +74,18 @@ public:
     /// Empty where instructions are carried out one by one.
     std::span<const TapeGroup> groups() const { return groups_; }
 
+    /// The register of each output.
+    std::span<const std::uint32_t> outputPlaces() const { return outputs_; }
+    /// The code that carries it out for eight of each number side by side; null where it has none, or not
+    /// yet.
+    MachineCode::Call forEight() const { return eight_ ? eight_->of(*this) : nullptr; }
+    /// A copy that will have no code.
+    Tape withoutCode() const {
+        Tape made = *this;
+        made.one_ = made.eight_ = nullptr;
+        return made;
+    }
+
     /// `r` has registers() entries and the inputs in front; afterwards output(i, r) is root i.
     void run(double* r) const;
     template <class T>
@@ -95,7 +108,8 @@ private:
     std::vector<TapeGroup> groups_;
     std::vector<LookUp> tables_;
     std::vector<std::uint32_t> outputs_;
-    std::vector<Stretch> stretches_;  ///< of the outputs; empty where most of them are short
+    std::shared_ptr<MachineCode> one_, eight_;  ///< of all copies; one_: where there are no groups
+    std::vector<Stretch> stretches_;            ///< of the outputs; empty where most of them are short
 };
 
 }  // namespace extremal::typed
