@@ -19,7 +19,7 @@ BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage
     BaselineEntry e;
     e.item = std::move(item);
     e.parts.set(OscillatorLimit(2));
-    // Of separable systems, and exact: fractions are 1 and 1/2.
+    // Of sums A(p) + B(q), and exact: fractions are 1 and 1/2.
     e.parts.set(BaselineTableau{[stages](const Settings&) {
         std::vector<SplittingStage> flows;
         for (const PartitionedStage& s : stages) flows.push_back({s.isKick(), s.fraction});
@@ -58,7 +58,7 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
     e.make = [splitting](const System& system, const BaselineOptions& options) {
         if (system.parts.find<Wave>()) return makeWaveSplittingBaseline(system, options.step, splitting);
         const Mechanics<double> flow = flowOf(system);
-        return makePartitioned(flow, options.step, partitionedStages(splitting, flow.isSeparable));
+        return makePartitioned(flow, options.step, partitionedStages(splitting, flow.isSum()));
     };
     return e;
 }

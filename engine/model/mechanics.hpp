@@ -54,7 +54,10 @@ struct Mechanics {
     /// L = 1/2 sum_i mass_i v_i^2 - V(t, q) with constant masses: explicit splittings and the fixed-point
     /// iteration apply, and force and masses are set.
     bool isSeparable = false;
-    void (*force)(const void*, const T& t, const T* q, T* f) = nullptr;  ///< f = -dV/dq
+    /// f = -dB/dq of H = A(t, p) + B(t, q), where q has no part in `velocity`; null for others.
+    void (*force)(const void*, const T& t, const T* q, T* f) = nullptr;
+    /// Whether H is such a sum, and kicks and drifts are explicit: separable ones are, and more.
+    bool isSum() const { return force != nullptr; }
     /// The forces at many nodes together, where the system offers it (null else): coordinate k of node i is
     /// q[k * nodes + i], likewise f; `nodes` is a multiple of 8.
     void (*forces)(const void*, const T* t, int nodes, const T* q, T* f) = nullptr;

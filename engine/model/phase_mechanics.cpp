@@ -45,6 +45,10 @@ bool flow(const void* model, const double& t, const double* q, const double* p, 
 }
 bool velocity(const void* model, const double& t, const double* q, const double* p, double* v) {
     const PhaseMechanics& of = self(model);
+    if (of.velocity) {
+        of.velocity(of.model.get(), t, p, v);
+        return true;
+    }
     SlopesAt g(of, t, q, p);
     std::copy_n(g.data() + of.dimension, of.dimension, v);
     return true;
@@ -91,6 +95,7 @@ void forces(const void* model, const double* t, int nodes, const double* q, doub
 
 void force(const void* model, const double& t, const double* q, double* f) {
     const PhaseMechanics& of = self(model);
+    if (of.force) return of.force(of.model.get(), t, q, f);
     SlopesAt g(of, t, q, q);  // of V, whatever the momenta
     std::transform(g.data(), g.data() + of.dimension, f, [](double slope) { return -slope; });
 }
@@ -105,12 +110,12 @@ Mechanics<double> flowOf(const PhaseMechanics& mechanics) {
     if (mechanics.isSeparable()) {
         for (const double w : mechanics.inverseMasses) model->masses.push_back(1 / w);
         made.isSeparable = true;
-        made.force = force;
         made.masses = model->masses.data();
         made.jet = lagrangianJet;
         made.gradient = lagrangianGradient;
         if (mechanics.forces) made.forces = forces;
     }
+    if (mechanics.isSeparable() || mechanics.force) made.force = force;
     made.model = model;
     made.velocity = velocity;
     made.energy = energy;

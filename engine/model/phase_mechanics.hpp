@@ -31,6 +31,11 @@ struct PhaseMechanics {
     void (*gradients)(const void*, const double* t, int nodes, const double* q, const double* p,
                       double* gradients) = nullptr;
 
+    /// H = A(t, p) + B(t, q), and the system offers its halves (null else): dA/dp and -dB/dq, each of which
+    /// costs less than the gradient.
+    void (*velocity)(const void*, double t, const double* p, double* v) = nullptr;
+    void (*force)(const void*, double t, const double* q, double* f) = nullptr;
+
     /// H = 1/2 sum_i w_i p_i^2 + V(t, q) with constant w_i: `inverseMasses` are these, else empty.
     std::vector<double> inverseMasses = {};
     /// Of such H, -dH/dq at many nodes together, where the system offers it (null else); as above.
@@ -41,8 +46,9 @@ struct PhaseMechanics {
 };
 
 /// The same behind the calls of methods for Hamilton's equations (engine/baseline): `flow`, `energy` and
-/// `velocity`, which is H_p and never fails. Where it is separable it is that of a Lagrangian, 1/2 sum_i
-/// v_i^2 / w_i - V(t, q), with all calls; else it has no Lagrangian, and `jet` and `gradient` are null.
+/// `velocity`, which is H_p and never fails; `force` of sums. Where it is separable it is that of a
+/// Lagrangian, 1/2 sum_i v_i^2 / w_i - V(t, q), with all calls; else it has no Lagrangian, and `jet` and
+/// `gradient` are null.
 Mechanics<double> flowOf(const PhaseMechanics& mechanics);
 /// The Hamiltonian behind what flowOf() has made; null for a Lagrangian.
 const PhaseMechanics* hamiltonianOf(const Mechanics<double>& mechanics);

@@ -80,10 +80,10 @@ public:
         forceTime_ = before.forceTime_;
     }
 
-    /// Separable systems: the same maps on local copies, without a call per step.
+    /// Sums A(p) + B(q): the same maps on local copies, without a call per step.
     StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count, const Clock& clock) override {
         count = std::min(count, nodes.capacity() - nodes.size());
-        if (!this->mechanics_.isSeparable || this->mechanics_.isTimeDependent || count < 2 ||
+        if (!this->mechanics_.isSum() || this->mechanics_.isTimeDependent || count < 2 ||
             nodes.measuresQuantities())
             return Base::advanceBlock(state, nodes, count, clock);
         const auto d = static_cast<std::size_t>(this->d());
@@ -95,6 +95,7 @@ public:
         for (std::size_t i = 0; i + 1 < count; ++i) {
             report.cost.evaluations = 0;
             kickAndDrift(state.t, q, p, isForceFresh, report);
+            if (report.outcome != Outcome::converged) return report;
             state.t = clock.at(++state.node);
             std::copy_n(q.data(), d, state.x.data());
             std::copy_n(p.data(), d, state.x.data() + d);
@@ -170,7 +171,7 @@ private:
         return true;
     }
     void step(double t) override {
-        if (!this->mechanics_.isSeparable || this->mechanics_.isTimeDependent) {
+        if (!this->mechanics_.isSum() || this->mechanics_.isTimeDependent) {
             takeStages(t, [](auto&&...) { return true; });
             return;
         }
@@ -178,17 +179,11 @@ private:
         kickAndDrift(t, this->q1_, this->p1_, isForceFresh, this->report_);
         if (isForceFresh) forceAt_ = this->q1_;
     }
-    /// The stages of a separable system that does not know the time. `isForceFresh`: whether force_ is that
-    /// of q, before and after.
+    /// The stages of a sum A(p) + B(q). `isForceFresh`: whether force_ is that of q, before and after.
     void kickAndDrift(double t, Vector& q, Vector& p, bool& isForceFresh, StepReport& report) {
         const auto& m = this->mechanics_;
         const double h = this->h();
-        const auto drift = [&](double s) {
-            if constexpr (D == Eigen::Dynamic)
-                ForThisMachine<&driftAll>::call()(q.data(), s, inverseMass_.data(), p.data(), this->d());
-            else
-                q += (s * inverseMass_).cwiseProduct(p);
-        };
+        const auto drift = [&](double s) { this->drift(t, s, q, p, report); };
         if (!m.kicksAndDrifts) {
             takePairs(
                 isForceFresh,
@@ -244,12 +239,12 @@ private:
         for (const PartitionedStage& stage : stages_) {
             const double s = stage.fraction * this->h();
             const bool isKick = stage.isKick();
-            const bool isImplicit = !this->mechanics_.isSeparable && (stage.map == HalfMap::kickImplicit ||
-                                                                      stage.map == HalfMap::driftImplicit);
+            const bool isImplicit = !this->mechanics_.isSum() && (stage.map == HalfMap::kickImplicit ||
+                                                                  stage.map == HalfMap::driftImplicit);
             const double at = isKick ? tq : tp;
             if (!isImplicit && !besides(isKick, false, at, s)) return false;
-            if (this->mechanics_.isSeparable)
-                separable(isKick, tq, s);
+            if (this->mechanics_.isSum())
+                ofSum(isKick, at, s);
             else if (isImplicit)
                 implicitMap(isKick, at, s);
             else
@@ -267,16 +262,16 @@ private:
         this->p1_ = this->p0_;
         const bool isKnown = takeStages(t, [&](bool isKick, bool isImplicit, double at, double s) {
             const Eigen::MatrixXd* const jacobian = this->flowJacobian(at, this->q1_, this->p1_);
-            if (jacobian) multiply(*jacobian, isKick, !this->mechanics_.isSeparable, isImplicit, s, W);
+            if (jacobian) multiply(*jacobian, isKick, !this->mechanics_.isSum(), isImplicit, s, W);
             return jacobian != nullptr;
         });
         this->q1_ = endQ;
         this->p1_ = endP;
         return isKnown;
     }
-    void separable(bool isKick, double t, double s) {
+    void ofSum(bool isKick, double t, double s) {
+        const auto& m = this->mechanics_;
         if (isKick) {
-            const auto& m = this->mechanics_;
             // The last kick of a step and the first of the next one use the same force.
             if (forceAt_ != this->q1_ || (m.isTimeDependent && forceTime_ != t)) {
                 m.force(m.model.get(), t, this->q1_.data(), force_.data());
@@ -286,7 +281,20 @@ private:
             }
             this->p1_ += s * force_;
         } else {
-            this->q1_ += (s * inverseMass_).cwiseProduct(this->p1_);
+            drift(t, s, this->q1_, this->p1_, this->report_);
+        }
+    }
+    /// q += s q', where the velocities are found: those of a typed Lagrangian may not be.
+    void drift(double t, double s, Vector& q, const Vector& p, StepReport& report) {
+        const auto& m = this->mechanics_;
+        if (!m.isSeparable) {
+            if (!m.velocity(m.model.get(), t, q.data(), p.data(), dq_.data()))
+                report.outcome = Outcome::singular;
+            q += s * dq_;
+        } else if constexpr (D == Eigen::Dynamic) {
+            ForThisMachine<&driftAll>::call()(q.data(), s, inverseMass_.data(), p.data(), this->d());
+        } else {
+            q += (s * inverseMass_).cwiseProduct(p);
         }
     }
     void explicitMap(bool isKick, double t, double s) {
@@ -330,9 +338,9 @@ std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, 
     return makeFlowMethod<Partitioned>(mechanics, step, stages);
 }
 
-std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool isSeparable) {
+std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool isSum) {
     std::vector<PartitionedStage> stages;
-    if (isSeparable) {
+    if (isSum) {
         for (const SplittingStage& s : splitting.stages)
             stages.push_back({s.isKick ? HalfMap::kickExplicit : HalfMap::driftExplicit, s.fraction});
         return stages;

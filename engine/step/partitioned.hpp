@@ -3,8 +3,9 @@
 ///
 ///     kickImplicit(s):  p <- p + s pdot(q, p_new)      kickExplicit(s):  p <- p + s pdot(q, p)
 ///     driftImplicit(s): q <- q + s qdot(q_new, p)      driftExplicit(s): q <- q + s qdot(q, p)
-/// For separable systems all are explicit and the implicit ones are the explicit ones. Else the implicit ones
-/// are solved by fixed-point iteration to round-off (Hairer, Lubich, Wanner 2006, VI.3, (3.3) and (3.4)).
+/// For sums H = A(t, p) + B(t, q) all are explicit and the implicit ones are the explicit ones. Else the
+/// implicit ones are solved by fixed-point iteration to round-off (Hairer, Lubich, Wanner 2006, VI.3, (3.3)
+/// and (3.4)).
 #pragma once
 
 #include <memory>
@@ -32,6 +33,6 @@ std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, 
 /// fraction c_1, its adjoint with c_2, Euler with c_3, ...: b_1 = c_1, a_1 = c_1 + c_2, b_2 = c_2 + c_3, ...
 /// has the same order for any Hamiltonian (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168). That is for
 /// splittings which start with a kick.
-std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool isSeparable);
+std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool isSum);
 
 }  // namespace extremal

@@ -43,9 +43,16 @@ Splitting alternating(int order, bool isNystrom, bool isKickFirst, const std::ve
 
 Splitting strang() { return alternating(2, false, true, {0.5, 0.5}, {1}); }
 
+Splitting strangSteps(int order, const std::vector<double>& parts) {
+    std::vector<double> kicks{parts.front() / 2};
+    for (std::size_t i = 1; i < parts.size(); ++i) kicks.push_back((parts[i - 1] + parts[i]) / 2);
+    kicks.push_back(parts.back() / 2);
+    return alternating(order, false, true, kicks, parts);
+}
+
 Splitting suzuki4() {
-    const double g = 1 / (4 - std::cbrt(4.0)), m = 1 - 4 * g;
-    return alternating(4, false, true, {g / 2, g, (g + m) / 2, (g + m) / 2, g, g / 2}, {g, g, m, g, g});
+    const double g = 1 / (4 - std::cbrt(4.0));
+    return strangSteps(4, {g, g, 1 - 4 * g, g, g});
 }
 
 Splitting blanesMoanS6() {

@@ -11,9 +11,9 @@
 ///
 /// Source: S. Blanes and P. C. Moan, Practical symplectic partitioned Runge-Kutta and Runge-Kutta-Nystrom
 /// methods, J. Comput. Appl. Math. 142 (2002) 313-330, tables 2 and 3. The coefficients are printed to 15
-/// digits; those that follow from consistency (sums equal to 1) are computed. Those of order 8 are A19 and B19
-/// of S. Blanes, F. Casas and A. Escorihuela-Tomas, Runge-Kutta-Nystrom symplectic splitting methods of order
-/// 8, Appl. Numer. Math. 182 (2022) 14-27, arXiv 2202.01541, tables 4 and 5, printed to 30.
+/// digits; those that follow from consistency (sums equal to 1) are computed. Those of order 8 are A19 and
+/// B19 of S. Blanes, F. Casas and A. Escorihuela-Tomas, Runge-Kutta-Nystrom symplectic splitting methods of
+/// order 8, Appl. Numer. Math. 182 (2022) 14-27, arXiv 2202.01541, tables 4 and 5, printed to 30.
 /// tests/engine/tableau checks the order conditions.
 #pragma once
 
@@ -36,7 +36,9 @@ struct Splitting {
     std::vector<SplittingStage> stages;  ///< in the order in which they are applied
 };
 
-Splitting strang();         ///< order 2, kick first, 1 kick
+Splitting strang();  ///< order 2, kick first, 1 kick
+/// Strang steps over these parts of a step, which sum to 1, of an order that follows from them.
+Splitting strangSteps(int order, const std::vector<double>& parts);
 Splitting suzuki4();        ///< order 4: five Strang steps, g = 1/(4 - 4^(1/3)), g, 1 - 4g, g, g; 5 kicks
 Splitting blanesMoanS6();   ///< order 4, any A and B, 6 kicks per step (the last is the first of the next)
 Splitting blanesMoanS10();  ///< order 6, any A and B, 10 kicks

@@ -46,17 +46,20 @@ BaselineEntry splitting() {
         const auto typed = typedSplitting(options.settings);
         const Splitting& made = typed->splitting;
         if (system.parts.find<Wave>()) return makeWaveSplittingBaseline(system, options.step, made);
-        const bool isSeparable = flowOf(system).isSeparable;
-        if (!isSeparable && (made.isNystrom || !made.stages.front().isKick || made.stages.size() % 2 == 0))
+        const Mechanics<double> flow = flowOf(system);
+        if (made.isNystrom && !flow.isSeparable)
             throw InvalidScene(
                 "/baseline",
-                "needs kinetic energy with constant masses and a potential here: kicks and drifts are "
-                "not explicit for " +
-                    system.id +
-                    ", and only splittings that begin and end with a kick, and have their "
-                    "order for every T(p), have another form",
-                "a splitting with one kick more than drifts, or another scheme");
-        return makePartitioned(flowOf(system), options.step, partitionedStages(made, isSeparable));
+                "has its order for kinetic energies p^2/(2m) with constant masses alone, and " + system.id +
+                    " has another one",
+                "fractions that have their order for every T(p), or another scheme");
+        if (!flow.isSum() && (!made.stages.front().isKick || made.stages.size() % 2 == 0))
+            throw InvalidScene("/baseline",
+                               "needs H = A(p) + B(q) here: kicks and drifts are not explicit for " +
+                                   system.id +
+                                   ", and only splittings that begin and end with a kick have another form",
+                               "a splitting with one kick more than drifts, or another scheme");
+        return makePartitioned(flow, options.step, partitionedStages(made, flow.isSum()));
     };
     return e;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Known motions between kicks: free ones between kicks of the potential, the explicit schemes of coordinates
-/// with constant masses, of rigid bodies, of wave functions and of fields in Fourier modes (Leok 2004, sec.
-/// 2, 3 and 8 for the spaces; Blanes and Moan 2002 for the knots), and Kepler arcs between kicks of what
+/// Known motions between kicks: free ones between kicks of the potential, the explicit schemes of energies
+/// A(p) + B(q) in coordinates, of rigid bodies, of wave functions and of fields in Fourier modes (Leok 2004,
+/// sec. 2, 3 and 8 for the spaces; Blanes and Moan 2002 for the knots), and Kepler arcs between kicks of what
 /// planets do to each other (Wisdom and Holman 1991; Laskar and Robutel 2001 and Blanes et al. 2013 for the
 /// knots).
 #include <algorithm>
@@ -24,6 +24,7 @@
 #include "engine/family/parts/meshes.hpp"
 #include "engine/family/parts/step_tableau.hpp"
 #include "engine/family/parts/variant.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/integrator/oscillator_step.hpp"
 #include "engine/model/parts/held_bodies.hpp"
 #include "engine/model/phase_mechanics.hpp"
@@ -42,7 +43,18 @@ struct NamedSplitting {
     Splitting (*make)();
     bool isInGrid = true;  ///< offered side by side with others
 };
-constexpr std::array<NamedSplitting, 9> freeKnots{
+/// Kicks in place of drifts, and the other way round: the order of tables for any A and B stays.
+Splitting swapped(Splitting splitting) {
+    for (SplittingStage& stage : splitting.stages) stage.isKick = !stage.isKick;
+    return splitting;
+}
+/// Nine or seventeen steps of Strang, drift first.
+Splitting kahanLi(int order) {
+    return swapped(
+        strangSteps(order, compositionParts({"kahan-li", {{"order", static_cast<double>(order)}}, {}}, 2)));
+}
+
+constexpr std::array<NamedSplitting, 11> freeKnots{
     {{"strang", "F2", "Strang splitting", strang},
      {"suzuki-4", "F4s", "Suzuki 4", suzuki4, false},
      {"blanes-moan-s6", "F4b", "Blanes-Moan S6", blanesMoanS6},
@@ -50,6 +62,8 @@ constexpr std::array<NamedSplitting, 9> freeKnots{
      {"blanes-moan-s10", "F6b", "Blanes-Moan S10", blanesMoanS10},
      {"srkn-11b", "F6", "Blanes-Moan SRKN 11b", srkn11b},
      {"srkn-14a", "F6a", "Blanes-Moan SRKN 14a", srkn14a},
+     {"kahan-li-6", "F6k", "Kahan-Li 6", [] { return kahanLi(6); }, false},
+     {"kahan-li-8", "F8k", "Kahan-Li 8", [] { return kahanLi(8); }, false},
      {"srkn-19a", "F8", "Blanes-Casas SRKN 19a", srkn19a},
      {"srkn-19b", "F8b", "Blanes-Casas SRKN 19b", srkn19b, false}}};
 constexpr std::array<NamedSplitting, 11> keplerKnots{
@@ -71,10 +85,19 @@ std::span<const NamedSplitting> knotsOf(const Settings& space) {
     if (isOfArcs(space)) return keplerKnots;
     return freeKnots;
 }
-const NamedSplitting& splittingOf(const Settings& space) {
+const NamedSplitting& tableOf(const Settings& space) {
     const std::string id = space.text("knots");
     const auto all = knotsOf(space);
     return *std::find_if(all.begin(), all.end(), [&](const NamedSplitting& each) { return id == each.id; });
+}
+const char* firstOf(const Splitting& splitting) { return splitting.stages.front().isKick ? "kick" : "drift"; }
+/// Whether the space asks for the other order of kicks and drifts.
+bool isSwapped(const Settings& space, const Splitting& table) {
+    return space.find("first") && space.text("first") != firstOf(table);
+}
+Splitting splittingOf(const Settings& space) {
+    Splitting table = tableOf(space).make();
+    return isSwapped(space, table) ? swapped(std::move(table)) : table;
 }
 
 constexpr const char* needed = "a kinetic energy whose motion is known, and a potential";
@@ -91,13 +114,13 @@ SpaceEntry spaceOf(const char* id, const char* title, const char* description, c
     return e;
 }
 SpaceEntry freeMotions() {
-    SpaceEntry e =
-        spaceOf("free-motion", "free motion",
-                "Free motions between knots of the step, at which the potential kicks: explicit.",
-                "Where the knots are on the step and what the kicks weigh: strang (order 2), suzuki-4, "
-                "blanes-moan-s6, srkn-6b (4), blanes-moan-s10, srkn-11b, srkn-14a (6), srkn-19a, "
-                "srkn-19b (8).",
-                needed);
+    SpaceEntry e = spaceOf(
+        "free-motion", "free motion",
+        "Free motions between knots of the step, at which the potential kicks: explicit.",
+        "Where the knots are on the step and what the kicks weigh: strang (order 2), suzuki-4, "
+        "blanes-moan-s6, srkn-6b (4), blanes-moan-s10, srkn-11b, srkn-14a, kahan-li-6 (6), kahan-li-8, "
+        "srkn-19a, srkn-19b (8). Those of the name srkn need kinetic energies p^2/(2m).",
+        needed);
     FieldInfo modes =
         integerField("modes", "N", leastModes, mostModes, nullptr,
                      "Of fields over an interval: the number of Fourier modes; default: the cells "
@@ -111,6 +134,12 @@ SpaceEntry freeMotions() {
     mass.min = 0;
     mass.fallback = nullptr;
     mass.isOptional = true;
+    FieldInfo first = choiceField("first", "first", {"kick", "drift"},
+                                  "Which begins and ends the step, where the table has its order both ways; "
+                                  "default: as it was published, kahan-li-6 and kahan-li-8 with a drift.");
+    first.fallback = nullptr;
+    first.isOptional = true;
+    e.item.parameters.push_back(first);
     e.item.parameters.push_back(modes);
     e.item.parameters.push_back(mass);
     return e;
@@ -126,15 +155,16 @@ SpaceEntry keplerArcs() {
 }
 
 Properties describeFreeMotion(const Discretization& d) {
-    const NamedSplitting& named = splittingOf(d.space);
-    const Splitting splitting = named.make();
+    const NamedSplitting& named = tableOf(d.space);
+    const Splitting splitting = splittingOf(d.space);
     const auto kicks = std::count_if(splitting.stages.begin(), splitting.stages.end(),
                                      [](const SplittingStage& s) { return s.isKick; });
     Properties p;
     p.claims = {splitting.order, true, true, {"momentum"}};
     p.curveOrder = std::min(splitting.order, 4);  // cubic Hermite interpolation
-    p.space =
-        (isOfArcs(d.space) ? "Kepler arcs with " : "free motions with ") + std::to_string(kicks) + " kicks";
+    p.space = (isOfArcs(d.space) ? "Kepler arcs with " : "free motions with ") + std::to_string(kicks) +
+              " kicks" +
+              (isSwapped(d.space, named.make()) ? std::string(", ") + firstOf(splitting) + " first" : "");
     p.knownAs = named.knownAs;
     p.shortName = named.shortName;
     p.isExplicit = true;
@@ -177,10 +207,16 @@ std::string unknownBecause(const System& system) {
         return problem ? problem->message : std::string();
     }
     if (system.parts.find<PlaneField>()) return {};
-    return flowOf(system).isSeparable
-               ? std::string()
-               : "free motions are straight lines only where masses are constant and the potential depends "
-                 "on the place alone";
+    return flowOf(system).isSum() ? std::string()
+                                  : "free motions are straight lines only where the energy is a function of "
+                                    "the momenta and one of the places";
+}
+
+/// A(p) + B(q) where A is not quadratic: the third commutator of kicks with A is not zero.
+bool isSumOfOthers(const System& system) {
+    if (system.parts.find<Wave>() || system.parts.find<Body>() || isField(system)) return false;
+    const Mechanics<double> flow = flowOf(system);
+    return flow.isSum() && !flow.isSeparable;
 }
 
 /// Why a space cannot have the curves of a step; nothing if it can.
@@ -193,6 +229,15 @@ std::optional<Problem> problemOf(const Discretization& d, const System& system) 
         return Problem{"/space/mass",
                        "a mass term is for fields; in other systems all of the potential is in the kicks",
                        "leave it out"};
+    if (const Splitting table = tableOf(d.space).make(); table.isNystrom && isSwapped(d.space, table))
+        return Problem{"/space/first",
+                       d.space.text("knots") + " has its order only with a " + firstOf(table) + " first",
+                       std::string("leave it out, or blanes-moan-s10")};
+    if (!isOfArcs(d.space) && tableOf(d.space).make().isNystrom && isSumOfOthers(system))
+        return Problem{
+            "/space/knots",
+            d.space.text("knots") + " has its order for kinetic energies p^2/(2m) with constant masses alone",
+            "blanes-moan-s10"};
     if (isOfArcs(d.space) && !system.parts.find<HeldBodies>())
         return Problem{"/space/type", "Kepler arcs are for " + std::string(neededOfArcs), "free-motion"};
     return {};
@@ -203,7 +248,7 @@ std::string mismatchOf(const Discretization& d, const System& system) {
 }
 
 std::unique_ptr<Integrator> makeOn(const System& system, const Discretization& d, double step) {
-    const Splitting splitting = splittingOf(d.space).make();
+    const Splitting splitting = splittingOf(d.space);
     if (auto problem = problemOf(d, system)) throw InvalidScene({*std::move(problem)});
     if (isOfArcs(d.space)) return makeKeplerMotion(system, system.part<HeldBodies>(), splitting, step);
     if (system.parts.find<Wave>()) return makeWaveSplitting(system, step, splitting);
@@ -285,7 +330,7 @@ Family free_motion() {
         if (isOfArcs(d.space))
             throw InvalidScene("", "its steps are Kepler motions between kicks, which no tableau describes",
                                "choose the space free-motion for a tableau of the same knots");
-        return tableauOf(splittingOf(d.space).make().stages, 1e-15);  // printed to 15 digits
+        return tableauOf(splittingOf(d.space).stages, 1e-15);  // printed to 15 digits
     }});
     f.parts.set(OwnMesh{[](const Settings& space, const Settings& model) {
         return isOfArcs(space) ? std::nullopt : trigonometricModel(space, model);

@@ -80,12 +80,12 @@ void gradient(const void* p, const double& t, const double* q, const double* v, 
     r.copy(0, static_cast<std::size_t>(2 * m.d), g);
 }
 
-/// L_q; where L is separable it does not depend on v.
+/// L_q; of a sum it does not depend on v.
 void force(const Model& m, double t, const double* q, const double* v, double* f) {
     const Registers r(m, m.force, t, q, v);
     r.copy(0, static_cast<std::size_t>(m.d), f);
 }
-void separableForce(const void* p, const double& t, const double* q, double* f) {
+void forceAlone(const void* p, const double& t, const double* q, double* f) {
     force(self(p), t, q, nullptr, f);
 }
 
@@ -322,7 +322,6 @@ public:
         m.isTimeDependent = n_.graph.dependsOn({n_.value}, [&](int s) { return s == formula_.time(); });
         if (findMasses()) {
             m.isSeparable = true;
-            m.force = separableForce;
             m.forces = NodeTapes::forces();
             m.masses = model_->masses.data();
             Over<separableVelocity>::set(m);
@@ -331,6 +330,7 @@ public:
         } else {
             Over<newtonVelocity>::set(m);
         }
+        if (isSum()) m.force = forceAlone;
         for (int i = 0; i < d_; ++i)
             if (n_.graph.isZero(n_.gradient[static_cast<std::size_t>(i)])) made.cyclic.push_back(i);
         m.model = std::move(model_);
@@ -340,6 +340,13 @@ public:
 private:
     Tape tape(const std::vector<int>& roots) const { return Tape::of(n_.graph, roots, 2 * d_ + 1); }
     bool isVelocity(int symbol) const { return symbol >= d_ && symbol < 2 * d_; }
+
+    /// Whether L = T(t, v) - V(t, q), which makes H a sum as well.
+    bool isSum() const {
+        const auto middle = n_.gradient.begin() + d_;
+        return !n_.graph.dependsOn({n_.gradient.begin(), middle}, [this](int s) { return isVelocity(s); }) &&
+               !n_.graph.dependsOn({middle, n_.gradient.end()}, [this](int s) { return s < d_; });
+    }
 
     void buildJet() {
         const auto n = static_cast<std::size_t>(2 * d_);

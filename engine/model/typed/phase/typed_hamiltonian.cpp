@@ -22,7 +22,8 @@ namespace {
 /// Everything the calls need; immutable once made.
 struct PhaseModel {
     std::size_t d = 0;
-    Tape value, gradient, hessian, force;  ///< force: -H_q of a separable H
+    Tape value, gradient, hessian;
+    Tape velocity, force;  ///< H_p and -H_q of a sum A(t, p) + B(t, q)
     struct Place {
         std::size_t output, at, mirrored;  ///< output of the tape -> two entries of the Hessian
     };
@@ -51,6 +52,14 @@ void gradientAt(const void* model, double t, const double* q, const double* p, d
     const PhaseModel& m = modelOf(model);
     const PhaseRegisters r(m, m.gradient, t, q, p);
     for (std::size_t i = 0; i < 2 * m.d; ++i) gradient[i] = r[i];
+}
+void velocityAt(const void* model, double t, const double* p, double* v) {
+    const PhaseModel& m = modelOf(model);
+    PhaseRegisters(m, m.velocity, t, p, p).copy(0, m.d, v);
+}
+void forceAt(const void* model, double t, const double* q, double* f) {
+    const PhaseModel& m = modelOf(model);
+    PhaseRegisters(m, m.force, t, q, q).copy(0, m.d, f);
 }
 void hessianAt(const void* model, double t, const double* q, const double* p, double* hessian) {
     const PhaseModel& m = modelOf(model);
@@ -146,12 +155,15 @@ public:
         if (d_ <= few) m.gradients = ForThisMachine<&gradientLanes>::call();
         m.isTimeDependent = graph_.dependsOn({value_}, [&](int s) { return s == formula_.time(); });
         m.inverseMasses = inverseMasses();
-        if (m.isSeparable()) {
+        if (isSum()) {
             std::vector<int> forces;
             for (int i = 0; i < d_; ++i)
                 forces.push_back(graph_.scaled(gradient_[static_cast<std::size_t>(i)], -1));
             model->force = tape(forces);
-            m.forces = ForThisMachine<&forceLanes>::call();
+            model->velocity = tape({gradient_.begin() + d_, gradient_.end()});
+            m.force = forceAt;
+            m.velocity = velocityAt;
+            if (m.isSeparable()) m.forces = ForThisMachine<&forceLanes>::call();
         }
         m.model = model;
         for (int i = 0; i < d_; ++i)
@@ -177,6 +189,13 @@ private:
                 }
             }
         model.hessian = tape(roots);
+    }
+    /// Whether H_q has no momenta, and H_p no coordinates.
+    bool isSum() const {
+        const std::vector<int> ofPlaces(gradient_.begin(), gradient_.begin() + d_),
+            ofMomenta(gradient_.begin() + d_, gradient_.end());
+        return !graph_.dependsOn(ofPlaces, [this](int s) { return s >= d_ && s < n_; }) &&
+               !graph_.dependsOn(ofMomenta, [this](int s) { return s < d_; });
     }
     /// w_i of H_p = (w_i p_i) with constant w_i, seen in the formulas themselves; else empty.
     std::vector<double> inverseMasses() {
