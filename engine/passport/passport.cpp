@@ -85,9 +85,10 @@ void addAction(const ResolvedScheme& scheme, const System& system, Document& pag
     if (!scheme.family) return;
     const auto* const onSystem = scheme.family->parts.find<WrittenOnSystem>();
     const bool isMonitored = scheme.isMonitored() && hasHamiltonian(system);
-    const auto own = !onSystem     ? std::nullopt
-                     : isMonitored ? onSystem->written(scheme.discretization, monitoredKind(system))
-                                   : onSystem->written(scheme.discretization, system);
+    const auto own =
+        !onSystem     ? std::nullopt
+        : isMonitored ? onSystem->written(scheme.discretization, monitoredKind(system, scheme.spec.monitor))
+                      : onSystem->written(scheme.discretization, system);
     const auto* const test = scheme.isTested() ? scheme.family->parts.find<TestSpace>() : nullptr;
     const WrittenAction w = test  ? test->written(scheme.discretization, scheme.spec.keep)
                             : own ? *own
@@ -96,8 +97,11 @@ void addAction(const ResolvedScheme& scheme, const System& system, Document& pag
     page.blocks.emplace_back(Document::Paragraph{w.meaning});
     if (isMonitored)
         page.blocks.emplace_back(Document::Paragraph{
-            "Steps follow the monitor g: dt = g dτ with equal steps dτ. H below is K = g(q, p) (H(q, p) − "
-            "H₀), "
+            (isLogarithmic(scheme.spec.monitor)
+                 ? std::string("Steps follow the potential: dt = dτ/(c − V) with equal steps dτ, c = 1/g_max "
+                               "or 0. H below is K = log(T(p) − H₀ + c) − log(c − V(q)), ")
+                 : std::string("Steps follow the monitor g: dt = g dτ with equal steps dτ. H below is K = "
+                               "g(q, p) (H(q, p) − H₀), ")) +
             "with the time among the coordinates and −H₀, the energy at the start, as its momentum; h is dτ. "
             "Symplectic is the step in (t, q; −E, p)."});
     page.blocks.emplace_back(Document::Formulas{w.action});

@@ -14,6 +14,7 @@
 #include "engine/core/algebra/differences.hpp"
 #include "engine/core/field.hpp"
 #include "engine/core/own_buffers.hpp"
+#include "engine/core/problem.hpp"
 #include "engine/core/text/expression.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/typed/typed_function.hpp"
@@ -179,6 +180,34 @@ private:
     long long id_;
 };
 
+/// 1/(-V), V = H(q, 0) of a separable H.
+class DepthMonitor final : public Monitor {
+public:
+    explicit DepthMonitor(const PhaseMechanics& H) : H_(H), id_(nextModelId()) {}
+
+    void evaluate(const double* q, const double*, double* value, double* gradient,
+                  double* hessian) const override {
+        LocalMotion& local = ownBuffers<LocalMotion>(id_, H_);
+        const int d = local.d;
+        local.at << Eigen::Map<const Vector>(q, d), Vector::Zero(d);
+        const double g = -1 / H_.energy(H_.model.get(), 0, local.at.data(), local.at.data() + d);
+        *value = g;
+        if (!gradient) return;
+        local.differentiate(hessian != nullptr);
+        const auto slope = local.slope.head(d);  // g' = g^2 V', g'' = g^2 V'' + 2 g^3 V' V'
+        Eigen::Map<Vector> first(gradient, 2 * d);
+        first << g * g * slope, Vector::Zero(d);
+        if (!hessian) return;
+        Eigen::Map<Matrix> second(hessian, 2 * d, 2 * d);
+        second.setZero();
+        second.topLeftCorner(d, d) = g * g * local.qq() + 2 * g * g * g * slope * slope.transpose();
+    }
+
+private:
+    PhaseMechanics H_;
+    long long id_;
+};
+
 class BoundedMonitor final : public Monitor {
 public:
     BoundedMonitor(std::shared_ptr<const Monitor> monitor, int dimension, double most)
@@ -217,6 +246,8 @@ private:
     int n_;
     double most_;
 };
+
+constexpr const char* logarithmic = "logarithmic";
 
 FieldInfo longestField() {
     FieldInfo longest = numberField("max", "longest step", "", 0, "The longest step, which others approach.");
@@ -259,12 +290,21 @@ const std::vector<CatalogItem>& monitorCatalog() {
              "steps of equal length in phase space: for schemes of order 2",
              {},
              {},
-             "a Lagrangian or a Hamiltonian without explicit time"}};
+             "a Lagrangian or a Hamiltonian without explicit time"},
+            {logarithmic,
+             "potential, explicit",
+             "steps in proportion to 1/(-V) in p^2/(2m) + V, which free motions between kicks take "
+             "explicitly",
+             {},
+             {},
+             "kinetic energies p^2/(2m) and a negative potential without explicit time"}};
         for (CatalogItem& item : all) item.parameters.push_back(longestField());
         return all;
     }();
     return catalog;
 }
+
+bool isLogarithmic(const Settings& monitor) { return monitor.type == logarithmic; }
 
 std::vector<std::string> monitorNames(const std::vector<Coordinate>& coordinates) {
     std::vector<std::string> names;
@@ -282,7 +322,13 @@ std::shared_ptr<const Monitor> makeMonitor(const Settings& settings, const Syste
     if (settings.type == "auto") return std::make_shared<MeasuredMonitor>(H, localPeriod);
     if (settings.type == "action") return std::make_shared<MeasuredMonitor>(H, unsignedDensity);
     if (settings.type == "arclength") return std::make_shared<ArcLength>(H);
-    return std::make_shared<TypedMonitor>(settings, system);
+    if (!isLogarithmic(settings)) return std::make_shared<TypedMonitor>(settings, system);
+    if (!H.isSeparable())
+        throw InvalidScene("/monitor",
+                           "logarithmic is for energies p^2/(2m) + V(q) with constant masses, and " +
+                               system.id + " has another one",
+                           "auto, or a typed one");
+    return std::make_shared<DepthMonitor>(H);
 }
 
 std::shared_ptr<const Monitor> boundedMonitor(std::shared_ptr<const Monitor> monitor, int dimension,

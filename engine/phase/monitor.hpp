@@ -8,7 +8,8 @@
 ///                is a part of a local period, r^(3/2) in the field of a mass;
 ///     action     rho^(-1/3), rho = |H_pp| |H_q|^2 + 2 |H_pq| |H_q| |H_p| + |H_qq| |H_p|^2: the density of
 ///                the local action error with every term taken positive, so that it has no zeros on the way;
-///     arclength  1/|f|: equal lengths in phase space.
+///     arclength  1/|f|: equal lengths in phase space;
+///     logarithmic  1/(-V) of p^2/(2m) + V, of which steps can be explicit (logarithmic.hpp).
 /// |.| of matrices is Frobenius' norm. With a longest step, 1/g is 1/g + 1/g_max.
 ///
 /// The gradients of the first two are differences of order 6 over lengths of the motion itself. In a step the
@@ -48,8 +49,9 @@ public:
     }
 };
 
-/// Typed ones first, then "auto", "action" and "arclength", with their keys.
+/// Typed ones first, then "auto", "action", "arclength" and "logarithmic", with their keys.
 const std::vector<CatalogItem>& monitorCatalog();
+bool isLogarithmic(const Settings& monitor);
 
 /// The names that a typed monitor may use besides those of its own definitions: coordinates and momenta.
 std::vector<std::string> monitorNames(const std::vector<Coordinate>& coordinates);

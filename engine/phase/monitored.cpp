@@ -8,15 +8,18 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "engine/core/memo_cache.hpp"
 #include "engine/core/own_buffers.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text/text.hpp"
 #include "engine/model/parts/energy_formula.hpp"
 #include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/phase/flow_jacobian.hpp"
+#include "engine/phase/logarithmic.hpp"
 
 namespace extremal {
 namespace {
@@ -52,6 +55,15 @@ void legendreGradient(const void* model, double t, const double* q, const double
     if (!m.flow(m.model.get(), t, q, p, gradient + d, gradient))
         return void(std::fill_n(gradient, 2 * d, std::numeric_limits<double>::quiet_NaN()));
     for (int k = 0; k < d; ++k) gradient[k] = -gradient[k];
+}
+/// Of a separable Lagrangian, and its velocities.
+void legendreForce(const void* model, double t, const double* q, double* f) {
+    const Mechanics<double>& m = mechanicsOf(model);
+    m.force(m.model.get(), t, q, f);
+}
+void legendreVelocity(const void* model, double, const double* p, double* v) {
+    const Mechanics<double>& m = mechanicsOf(model);
+    for (int k = 0; k < m.dimension; ++k) v[k] = p[k] / m.masses[k];
 }
 void legendreHessian(const void* model, double t, const double* q, const double* p, double* hessian) {
     const Mechanics<double>& m = mechanicsOf(model);
@@ -159,6 +171,51 @@ void monitoredHessian(const void* model, double, const double* q, const double* 
     K.row(d + 1) = K.col(d + 1).transpose();
 }
 
+/// K = g (H + p_t).
+PhaseMechanics scaledMotion(const PhaseMechanics& H, const EnergyFormula* formula,
+                            const std::shared_ptr<const Monitor>& g) {
+    PhaseMechanics K;
+    K.dimension = H.dimension + 1;
+    constexpr int few = 16;  // as for gradients of H
+    auto slopes = formula && H.dimension <= few ? slopesOf(*formula, *g, H.dimension) : std::nullopt;
+    if (slopes) K.gradients = monitoredGradients;
+    K.model = std::make_shared<const MonitoredModel>(
+        MonitoredModel{H, slopes ? *std::move(slopes) : typed::NodeTape(), g, nextModelId()});
+    K.energy = monitoredEnergy;
+    K.gradient = monitoredGradient;
+    K.hessian = monitoredHessian;
+    return K;
+}
+
+/// Of the Lagrangian or the Hamiltonian that moves the system.
+const std::shared_ptr<const void>& modelOf(const System& system) {
+    const auto* const own = system.parts.find<PhaseMechanics>();
+    return own ? own->model : system.mechanics().model;
+}
+
+/// H, g with its bound, and K, which no start is needed for.
+struct Motion {
+    PhaseMechanics H, K;
+    std::shared_ptr<const Monitor> g;
+};
+Motion makeMotion(const System& system, const Settings& monitor, double most) {
+    Motion made;
+    made.H = hamiltonianFrom(system);
+    made.g = makeMonitor(monitor, system, made.H);
+    if (std::isfinite(most)) made.g = boundedMonitor(std::move(made.g), made.H.dimension, most);
+    const auto* const energy = system.parts.find<EnergyFormula>();
+    const EnergyFormula* const formula = energy && energy->of == modelOf(system) ? energy : nullptr;
+    made.K = isLogarithmic(monitor) ? logarithmicMotion(made.H, formula, 1 / most)
+                                    : scaledMotion(made.H, formula, made.g);
+    return made;
+}
+/// The last ones are remembered: their formulas cost as much as a short run.
+Motion motionOf(const System& system, const Settings& monitor, double most) {
+    using Key = std::tuple<std::shared_ptr<const void>, Settings, double>;
+    static MemoCache<Key, Motion> recent(8);
+    return recent.get(Key(modelOf(system), monitor, most), [&] { return makeMotion(system, monitor, most); });
+}
+
 System withTime(const System& of, PhaseMechanics motion) {
     System s;
     s.id = of.id;
@@ -193,30 +250,33 @@ PhaseMechanics hamiltonianFrom(const System& system) {
     made.hessian = legendreHessian;
     if (mechanics.isSeparable) {
         for (int k = 0; k < mechanics.dimension; ++k) made.inverseMasses.push_back(1 / mechanics.masses[k]);
+        made.force = legendreForce;
+        made.velocity = legendreVelocity;
         if (mechanics.forces) made.gradients = legendreGradients;
     }
     return made;
 }
 
-System monitoredKind(const System& system) {
+System monitoredKind(const System& system, const Settings& monitor) {
     PhaseMechanics motion;
     motion.dimension = system.dimension() + 1;
+    if (isLogarithmic(monitor)) motion.force = [](const void*, double, const double*, double*) {};
     return withTime(system, std::move(motion));
 }
 
 MonitoredProblem monitoredProblem(const System& system, const Settings& monitor, const State& start,
                                   double first) {
-    const PhaseMechanics H = hamiltonianFrom(system);
+    Motion motion = motionOf(system, monitor, std::numeric_limits<double>::infinity());
+    const PhaseMechanics& H = motion.H;
     if (H.isTimeDependent)
         throw InvalidScene("/monitor",
                            "needs a Hamiltonian without explicit time: with its energy at t = " +
                                formatNumber(start.t) + " the steps would follow another motion",
                            "fixed steps, or an adaptive code such as dopri5");
     const int d = H.dimension;
-    std::shared_ptr<const Monitor> g = makeMonitor(monitor, system, H);
     const bool isKnown = !start.x.empty();
     const double *const q = start.x.data(), *const p = isKnown ? q + d : q;
-    const double atStart = isKnown ? (*g)(q, p) : 1;
+    const double atStart = isKnown ? (*motion.g)(q, p) : 1;
     if (!(atStart > 0) || !std::isfinite(atStart)) refuseValue(atStart, start);
     if (const double longest = monitor.number("max"); longest > 0) {
         const double ratio = longest / std::abs(first);
@@ -225,28 +285,16 @@ MonitoredProblem monitoredProblem(const System& system, const Settings& monitor,
                                "must be longer than the first step, " + formatNumber(std::abs(first)) +
                                    ", got " + formatNumber(longest),
                                "a shorter first step");
-        g = boundedMonitor(std::move(g), d, atStart * (ratio - 1));
+        motion = motionOf(system, monitor, atStart * (ratio - 1));
     }
-    PhaseMechanics K;
-    K.dimension = d + 1;
-    constexpr int few = 16;  // as for gradients of H
-    const auto* const energy = system.parts.find<EnergyFormula>();
-    const auto* const own = system.parts.find<PhaseMechanics>();
-    const bool isOfSystem = energy && energy->of == (own ? own->model : system.mechanics().model);
-    auto slopes = isOfSystem && d <= few ? slopesOf(*energy, *g, d) : std::nullopt;
-    if (slopes) K.gradients = monitoredGradients;
-    K.model = std::make_shared<const MonitoredModel>(
-        MonitoredModel{H, slopes ? *std::move(slopes) : typed::NodeTape(), g, nextModelId()});
-    K.energy = monitoredEnergy;
-    K.gradient = monitoredGradient;
-    K.hessian = monitoredHessian;
     State of{0, 0, {}, {}};
-    if (!isKnown) return {withTime(system, std::move(K)), std::move(of), H, std::move(g)};
-    of.x.push_back(start.t);
-    of.x.insert(of.x.end(), q, p);
-    of.x.push_back(-H.energy(H.model.get(), start.t, q, p));
-    of.x.insert(of.x.end(), p, p + d);
-    return {withTime(system, std::move(K)), std::move(of), H, std::move(g)};
+    if (isKnown) {
+        of.x.push_back(start.t);
+        of.x.insert(of.x.end(), q, p);
+        of.x.push_back(-H.energy(H.model.get(), start.t, q, p));
+        of.x.insert(of.x.end(), p, p + d);
+    }
+    return {withTime(system, std::move(motion.K)), std::move(of), std::move(motion.H), std::move(motion.g)};
 }
 
 bool isEven(const Monitor& monitor, const State& at) {

@@ -9,6 +9,9 @@
 /// p and a Lagrangian L moves the system, this is the motion of g (L(q, q'/g) + H_0), and Gauss rules with as
 /// many nodes as the degree make the same steps of both.
 ///
+/// The monitor `logarithmic` has another K with the same motions, of which kicks and drifts in turn are
+/// explicit (logarithmic.hpp).
+///
 /// Of times that are typed into H this is not so, and they are refused. Source: Hairer 1997; Reich 1999.
 #pragma once
 
@@ -36,7 +39,7 @@ struct MonitoredProblem {
 };
 
 /// What schemes of K must take, without K: its number of coordinates and its part.
-System monitoredKind(const System& system);
+System monitoredKind(const System& system, const Settings& monitor);
 
 /// For a run from `start` whose first step is `first` (negative: backwards). Throws InvalidScene, with
 /// pointers below "/monitor", where g is not positive and finite at the start. A

@@ -32,7 +32,10 @@ std::string refusalOf(const ResolvedScheme& scheme, const System& system) {
                    system.id + " is not";
         ResolvedScheme inner = scheme;
         inner.spec.monitor = {};
-        return refusalOf(inner, monitoredKind(system));
+        const std::string refusal = refusalOf(inner, monitoredKind(system, scheme.spec.monitor));
+        return refusal.empty() || !refusalOf(inner, system).empty()
+                   ? refusal
+                   : "steps that follow it have the energy g (H - H_0): " + refusal;
     }
     if (scheme.isTested() && !canKeepInvariants(system))
         return "invariants are kept of motions that a Lagrangian, a Hamiltonian, a one-form or a bracket "
@@ -53,11 +56,22 @@ std::string refusalOf(const ResolvedScheme& scheme, const System& system) {
     return entry.item.id + " cannot integrate " + system.id + (needed.empty() ? "" : ": it needs " + needed);
 }
 
+/// What a scheme that is refused with its monitor may have instead.
+std::string otherThanMonitor(const ResolvedScheme& scheme, const System& system) {
+    ResolvedScheme other = scheme;
+    other.spec.monitor = {"logarithmic", {}, {}};
+    return (other.fits(system) ? "logarithmic, or another scheme: " : "another scheme: ") +
+           schemesFor(monitoredKind(system, scheme.spec.monitor));
+}
+
 /// Of a system whose parameters stay as they are.
 std::unique_ptr<Integrator> makeFor(const ResolvedScheme& scheme, const System& system, double step,
                                     const State& start) {
-    if (const std::string refusal = refusalOf(scheme, system); !refusal.empty())
+    if (const std::string refusal = refusalOf(scheme, system); !refusal.empty()) {
+        if (scheme.isMonitored() && hasHamiltonian(system))
+            throw InvalidScene("/monitor", refusal, otherThanMonitor(scheme, system));
         throw InvalidScene(scheme.family ? "/space/type" : "/baseline", refusal, schemesFor(system));
+    }
     if (scheme.isMonitored()) {
         const MonitoredProblem problem = monitoredProblem(system, scheme.spec.monitor, start, step);
         ResolvedScheme inner = scheme;
@@ -108,7 +122,7 @@ int ResolvedScheme::orderInSpace() const {
 bool ResolvedScheme::fits(const System& system) const {
     if (isMonitored()) {
         if (!hasHamiltonian(system)) return false;
-        const System kind = monitoredKind(system);
+        const System kind = monitoredKind(system, spec.monitor);
         return family ? isFor(discretization, kind) : appliesTo(*baseline, kind);
     }
     if (isTested()) return canKeepInvariants(system) && properties.refusal.empty();
@@ -139,7 +153,7 @@ ResolvedScheme resolve(const SchemeSpec& scheme, const System* system) {
     r.spec = scheme;
     std::optional<System> kind;  // of a monitored scheme
     if (system && !scheme.monitor.type.empty() && hasHamiltonian(*system))
-        system = &kind.emplace(monitoredKind(*system));
+        system = &kind.emplace(monitoredKind(*system, scheme.monitor));
     if (auto discretization = discretizationOf(scheme)) {
         r.discretization = std::move(*discretization);
         r.family = familyOf(r.discretization.space);
