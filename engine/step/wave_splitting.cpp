@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "engine/core/algebra/complex_vectors.hpp"
@@ -15,26 +16,32 @@
 namespace extremal {
 namespace {
 
+/// The first `count` of eight.
+template <class Count>
+inline void kickEight(const double* V, double density, double factor, double scale, Count count,
+                      double* psi) {
+    Lanes re, im, angle;
+    for (std::size_t k = 0; k < count; ++k) {
+        re.lane[k] = psi[2 * k];
+        im.lane[k] = psi[2 * k + 1];
+        angle.lane[k] = V[k];
+    }
+    angle = Lanes(factor) * (angle + Lanes(density) * (re * re + im * im));
+    const Lanes c = Lanes(scale) * cos(angle), s = Lanes(scale) * sin(angle), x = re * c - im * s,
+                y = re * s + im * c;
+    for (std::size_t k = 0; k < count; ++k) {
+        psi[2 * k] = x.lane[k];
+        psi[2 * k + 1] = y.lane[k];
+    }
+}
 /// psi_j *= scale exp(i factor (V_j + density |psi_j|^2)), eight together; real and imaginary parts in turn.
 inline void kickLanes(const double* V, double density, double factor, double scale, std::size_t n,
                       double* psi) {
-    for (std::size_t first = 0; first < n; first += Lanes::size) {
-        const std::size_t count = std::min(Lanes::size, n - first);
-        double* const at = psi + 2 * first;
-        Lanes re, im, angle;
-        for (std::size_t k = 0; k < count; ++k) {
-            re.lane[k] = at[2 * k];
-            im.lane[k] = at[2 * k + 1];
-            angle.lane[k] = V[first + k];
-        }
-        angle = Lanes(factor) * (angle + Lanes(density) * (re * re + im * im));
-        const Lanes c = Lanes(scale) * cos(angle), s = Lanes(scale) * sin(angle), x = re * c - im * s,
-                    y = re * s + im * c;
-        for (std::size_t k = 0; k < count; ++k) {
-            at[2 * k] = x.lane[k];
-            at[2 * k + 1] = y.lane[k];
-        }
-    }
+    // A loop of a known length takes registers at once, one of another length number by number.
+    constexpr std::integral_constant<std::size_t, Lanes::size> all;
+    std::size_t first = 0;
+    for (; first + all <= n; first += all) kickEight(V + first, density, factor, scale, all, psi + 2 * first);
+    if (first < n) kickEight(V + first, density, factor, scale, n - first, psi + 2 * first);
 }
 
 class WaveSplitting final : public WaveStep {
