@@ -4,8 +4,9 @@
 ///
 /// Ours follow a monitor: as a scene has it, and as Hamiltonians in a time of their own that are typed, g (H
 /// - E) with g = U^(-3/2), U the negative potential, and log(T - E) - log(U) (Mikkola and Tanikawa 1999;
-/// Preto and Tremaine 1999). These end at the first node behind the end. Here the step that would pass it is
-/// taken back, and one without a monitor leads from its start to the end itself.
+/// Preto and Tremaine 1999), of which steps can be explicit. These end at the first node behind the end. Here
+/// the step that would pass it is taken back, and one without a monitor leads from its start to the end
+/// itself.
 ///
 /// The reference is a Taylor integrator in extended precision, to 1e-21. It agrees to 1e-14 with its setting
 /// 1e-22, and with a Taylor integrator of 34 digits and higher orders, of which two settings differ by 1e-20.
@@ -233,6 +234,30 @@ inline void encounters(PeerTable& table) {
                 add("monitor " + std::string(monitor), of.lagrangian, monitored({monitor, {}, {}}, plain),
                     few, of.period);
         }
+    // Explicit ones; what is left at the end in eight steps.
+    const Make rest = [](const System& system, const State& from, double h) {
+        return composed(std::vector<double>(8, 0.125), *freeMotion("srkn-19a")(system, from, h));
+    };
+    for (const auto& [knots, kicks] : {std::pair{"strang", 1.0},
+                                       {"suzuki-4", 5.0},
+                                       {"blanes-moan-s6", 6.0},
+                                       {"blanes-moan-s10", 10.0},
+                                       {"kahan-li-6", 9.0},
+                                       {"kahan-li-8", 17.0}}) {
+        const std::vector<double> steps = ratios(2 * kicks, 0.02 * kicks, 1 / 1.15);
+        const auto add = [&](const std::string& name, const System& system, const Make& make, double unit) {
+            curves.add("free motion " + name, false, steps, [&, unit](double step) {
+                return error(throughEncounters(of, system, make, rest, step * unit));
+            });
+        };
+        for (const char* first : {"kick", "drift"}) {
+            const std::string name = std::string(knots) + ", " + first + " first";
+            const Make make = freeMotion(knots, first);
+            add(name + ", logarithmic", of.logarithmic, make, 1);
+            add(name + ", monitor logarithmic", of.lagrangian, monitored({"logarithmic", {}, {}}, make),
+                1 / Three::attraction(of.start.x.data()));
+        }
+    }
     Three three;
     addAdaptivePeers<Three::d>(
         curves,

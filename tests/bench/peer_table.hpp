@@ -23,7 +23,7 @@ namespace extremal::bench {
 inline bool isOfFramework(const std::string& name) {
     for (const char* const beginning :
          {"SRKN", "S10", "srkn", "blanes-moan", "strang", "suzuki", "impulse", "Gauss", "splitting",
-          "arcs by hand", "logarithmic leapfrog", "RATTLE", "Deuflhard"})
+          "arcs by hand", "logarithmic leapfrog", "pairs that turn", "RATTLE", "Deuflhard"})
         if (name.starts_with(beginning)) return true;
     return false;
 }

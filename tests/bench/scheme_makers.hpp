@@ -21,8 +21,10 @@ inline Make schemeOf(const Discretization& discretization) {
 }
 
 /// Free motions between kicks at the knots of a splitting.
-inline Make freeMotion(const std::string& knots) {
-    return schemeOf({{"free-motion", {{"knots", knots}}, {}}, {"auto", {}, {}}, {}});
+inline Make freeMotion(const std::string& knots, const std::string& first = "") {
+    Settings space{"free-motion", {{"knots", knots}}, {}};
+    if (!first.empty()) space.keys.emplace_back("first", first);
+    return schemeOf({space, {"auto", {}, {}}, {}});
 }
 
 /// Kepler arcs between kicks likewise.

@@ -98,6 +98,38 @@ void vorticesByGauss(FourVortices::Array* y, double end, double n, double tolera
     integrateByGauss<FourVortices::d, stages>(*y, end, n, tolerance,
                                               [](const auto* x, auto* dx) { FourVortices::rates(x, dx); });
 }
+/// The flow of the energy of two vortices over h: they turn about their centre, the only motion that is known
+/// here. Angles of a step are small, and the series are those of the sine and the cosine.
+inline void turnPair(double* x, std::size_t i, std::size_t j, double h) {
+    const double gi = FourVortices::strength[i], gj = FourVortices::strength[j], both = gi + gj;
+    const double a = x[2 * i] - x[2 * j], b = x[2 * i + 1] - x[2 * j + 1];
+    const double angle = h * both * FourVortices::scale / (a * a + b * b), z = angle * angle;
+    double s = angle *
+               (1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110 * (1 - z / 156)))))),
+           c = -z / 2 * (1 - z / 12 * (1 - z / 30 * (1 - z / 56 * (1 - z / 90 * (1 - z / 132)))));
+    if (z > 0.25) {
+        s = std::sin(angle);
+        c = std::cos(angle) - 1;
+    }
+    const double u = (c * a - s * b) / both, v = (s * a + c * b) / both;
+    x[2 * i] += gj * u;
+    x[2 * i + 1] += gj * v;
+    x[2 * j] -= gi * u;
+    x[2 * j + 1] -= gi * v;
+}
+/// Known motions of the six pairs in turn, there and back in each part of a composition.
+inline void vorticesByPairs(FourVortices::Array* y, double end, int n, const std::vector<double>* parts) {
+    constexpr std::array<std::array<std::size_t, 2>, 6> pairs{
+        {{0, 1}, {2, 3}, {0, 2}, {1, 3}, {0, 3}, {1, 2}}};
+    double* const x = y->data();
+    for (int step = 0; step < n; ++step)
+        for (const double part : *parts) {
+            const double h = part * end / n;
+            for (std::size_t k = 0; k < 5; ++k) turnPair(x, pairs[k][0], pairs[k][1], h / 2);
+            turnPair(x, pairs[5][0], pairs[5][1], h);
+            for (std::size_t k = 5; k-- > 0;) turnPair(x, pairs[k][0], pairs[k][1], h / 2);
+        }
+}
 /// The code for x'' = f(x) has the places in front of the velocities, and here takes the rates of all.
 inline void vorticesByDop853(FourVortices::Array* y, double end, double tolerance) {
     integrateByDop853<FourVortices::d / 2>(*y, end, tolerance, [](const double* x, double* a) {
@@ -236,6 +268,14 @@ inline void addVortexPeers(std::vector<Curve>& curves, const KnownVortices& know
     });
     add("odeint bulirsch-stoer", tolerances,
         [&](Array& y, double e) { byOdeint(odeint::bulirsch_stoer<Array>(e, e), y); });
+    for (const double order : {4.0, 6.0, 8.0}) {
+        const std::vector<double> parts =
+            compositionParts({order == 4 ? "suzuki" : "kahan-li", {{"order", order}}, {}}, 2);
+        add("pairs that turn by hand, order " + formatNumber(order), counts(15, 3000, 1.12),
+            [&](Array& y, double n) {
+                ForThisMachine<&vorticesByPairs>::call()(&y, end, static_cast<int>(n), &parts);
+            });
+    }
     add("DOP853 by hand", tolerances,
         [&](Array& y, double e) { ForThisMachine<&vorticesByDop853>::call()(&y, end, e); });
     add("Taylor by hand", tolerances,
