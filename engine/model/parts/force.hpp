@@ -34,7 +34,19 @@ struct Force {
     void (*derivatives)(const void*, const double* t, int nodes, const double* q, const double* v,
                         double* derivatives) = nullptr;
 
-    /// The same by the entries that are not always 0, where the system offers it; null else.
+    /// L' and L'' as in model/mechanics.hpp at many nodes, with F added to L_q and its derivatives to those
+    /// of L_q, where the system offers it; null else. In a step they are one term, and formulas of both have
+    /// much in common.
+    struct WithLagrangian {
+        const void* lagrangian;  ///< Mechanics::model of this L, which no other has
+        void (*gradients)(const void*, const double* t, int nodes, const double* q, const double* v,
+                          double* gradients) = nullptr;
+        void (*hessians)(const void*, const double* t, int nodes, const double* q, const double* v,
+                         double* hessians) = nullptr;
+    };
+    std::shared_ptr<const WithLagrangian> withLagrangian = {};
+
+    /// F and its derivatives by the entries that are not always 0, where the system offers it; null else.
     struct Entries {
         std::vector<MatrixEntry> first;  ///< (i, j): F_i by q_j, or by v_(j - d)
         void (*values)(const void*, double t, const double* q, const double* v, double* force,

@@ -33,7 +33,7 @@ System makeLagrangian(const Settings& given) {
     if (auto energy = typed::energyOfLagrangian(formula, s.mechanics())) s.parts.set(*std::move(energy));
     if (auto held = heldBodiesIn(s.mechanics())) s.parts.set(*std::move(held));
     if (auto constraint = typed::constraintOf(settings, formula)) s.parts.set(*std::move(constraint));
-    if (auto force = typed::forceOf(settings, formula)) s.parts.set(*std::move(force));
+    if (auto force = typed::forceOf(settings, formula, s.mechanics())) s.parts.set(*std::move(force));
     if (auto rolling = typed::rollingOf(settings, formula)) s.parts.set(*std::move(rolling));
     if (auto wall = typed::wallOf(settings, formula)) {
         s.parts.set(typed::contactWith(*wall));

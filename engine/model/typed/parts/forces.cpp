@@ -25,6 +25,10 @@ struct ForceModel {
         std::size_t output;
     };
     std::vector<Entry> entries;
+    /// With the Lagrangian: L_q + F and L_v, and their derivatives, 2d x 2d.
+    Tape gradients, hessians;
+    std::vector<std::size_t> places;  ///< of each output of `hessians`
+    std::vector<double> constants;    ///< the entries that have none
 };
 const ForceModel& forceModel(const void* p) { return *static_cast<const ForceModel*>(p); }
 
@@ -56,6 +60,25 @@ void derivativesAtNodes(const void* p, const double* t, int nodes, const double*
     runNodes(m.derivatives, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
         const ForceModel::Entry& e = m.entries[k];
         value.store(derivatives + (e.i * 2 * m.d + e.j) * nodes + i);
+    });
+}
+
+void gradientsWithForce(const void* p, const double* t, int nodes, const double* q, const double* v,
+                        double* gradients) {
+    const ForceModel& m = forceModel(p);
+    runNodes(m.gradients, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
+        value.store(gradients + static_cast<int>(k) * nodes + i);
+    });
+}
+
+void hessiansWithForce(const void* p, const double* t, int nodes, const double* q, const double* v,
+                       double* hessians) {
+    const ForceModel& m = forceModel(p);
+    const auto stride = static_cast<std::size_t>(nodes);
+    for (std::size_t entry = 0; entry < m.constants.size(); ++entry)
+        std::fill_n(hessians + entry * stride, stride, m.constants[entry]);
+    runNodes(m.hessians, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
+        value.store(hessians + m.places[k] * stride + static_cast<std::size_t>(i));
     });
 }
 
@@ -122,6 +145,45 @@ void addForces(const Settings& settings, const Formula& formula, Roots& roots, F
             add(all.derivative[c][placeOf(by)], here[placeOf(next)], -1);
         }
     }
+}
+
+/// The Lagrangian in the graph of the forces, so that what both have is computed once.
+void joinLagrangian(const Formula& formula, Roots& roots, const ForceNodes& forces, ForceModel& model) {
+    const int d = formula.dimension(), n = 2 * d;
+    const auto symbolic = differentiate(formula);
+    std::vector<int> nodes = symbolic->gradient;
+    nodes.insert(nodes.end(), symbolic->hessian.begin(), symbolic->hessian.end());
+    Graph& graph = roots.graph();
+    const std::vector<int> here = graph.adopt(
+        symbolic->graph, nodes,
+        [&](int symbol) -> std::optional<double> {
+            const int k = symbol - formula.firstParameter();
+            return k < 0 ? std::nullopt : std::optional(formula.parameters[placeOf(k)].second);
+        },
+        [d](int symbol) { return symbol < d       ? symbol
+                                 : symbol < 2 * d ? symbol + 1
+                                                  : d; });
+    const auto withForce = [&](int i, int node, int force) {
+        return i < d ? graph.sum(0, {{node, 1}, {force, 1}}) : node;
+    };
+    std::vector<int> first, second;
+    for (int i = 0; i < n; ++i)
+        first.push_back(withForce(i, here[placeOf(i)], i < d ? forces.value[placeOf(i)] : 0));
+    model.constants.assign(placeOf(n * n), 0);
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const int row = std::max(i, j), column = std::min(i, j);
+            const int node = withForce(i, here[placeOf(n + row * (row + 1) / 2 + column)],
+                                       i < d ? forces.derivative[placeOf(i)][placeOf(j)] : 0);
+            if (graph.isNumber(node)) {
+                model.constants[placeOf(i * n + j)] = graph.at(node).number;
+                continue;
+            }
+            model.places.push_back(placeOf(i * n + j));
+            second.push_back(node);
+        }
+    model.gradients = roots.tape(first);
+    model.hessians = roots.tape(second);
 }
 
 bool hasForces(const Settings& settings) {
@@ -258,7 +320,8 @@ void refuseDryFriction(const Settings& settings, const Formula& formula, Roots& 
 
 }  // namespace
 
-std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
+std::optional<Force> forceOf(const Settings& settings, const Formula& formula,
+                             const Mechanics<double>& mechanics) {
     if (!hasForces(settings)) return {};
     const int d = formula.dimension();
     const Formula names = withTime(formula, "");
@@ -284,6 +347,12 @@ std::optional<Force> forceOf(const Settings& settings, const Formula& formula) {
     made.isTimeDependent = roots.graph().dependsOn(nodes.value, [d](int symbol) { return symbol == d; });
     made.kinks = kinksOf(settings, formula);
     refuseDryFriction(settings, formula, roots, *model);
+    if (mechanics.gradients && mechanics.hessians) {
+        joinLagrangian(formula, roots, nodes, *model);
+        made.withLagrangian = std::make_shared<Force::WithLagrangian>(
+            Force::WithLagrangian{mechanics.model.get(), ForThisMachine<&gradientsWithForce>::call(),
+                                  ForThisMachine<&hessiansWithForce>::call()});
+    }
     auto entries = std::make_shared<Force::Entries>();
     for (const ForceModel::Entry& e : model->entries) entries->first.push_back({e.i, e.j});
     entries->values = entriesOfForce;

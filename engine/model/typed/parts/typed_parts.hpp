@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/core/settings.hpp"
+#include "engine/model/mechanics.hpp"
 #include "engine/model/parts/constraint.hpp"
 #include "engine/model/parts/force.hpp"
 #include "engine/model/parts/rolling.hpp"
@@ -26,7 +27,9 @@ namespace extremal::typed {
 
 /// Nothing where none is typed. `formula`: the names, as in formulaOf.
 std::optional<Constraint> constraintOf(const Settings& settings, const Formula& formula);
-std::optional<Force> forceOf(const Settings& settings, const Formula& formula);
+/// `mechanics`: of the Lagrangian that the names belong to.
+std::optional<Force> forceOf(const Settings& settings, const Formula& formula,
+                             const Mechanics<double>& mechanics);
 std::optional<Rolling> rollingOf(const Settings& settings, const Formula& formula);
 std::optional<Wall> wallOf(const Settings& settings, const Formula& formula);
 

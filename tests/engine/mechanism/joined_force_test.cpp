@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Forces that are evaluated together with their Lagrangian: the sums of what both say alone, and used for
+/// this Lagrangian only.
+#include <QTest>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "tests/engine/mechanism/mechanisms.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::mechanism_test {
+namespace joined_force_test {
+
+/// A mass matrix, a time, parameters and all kinds of forces.
+System forced() {
+    return typedWith({"x", "y"}, "m*(1 + x^2)*x_t^2/2 + (2 + sin(t))*y_t^2/2 + x_t*y_t/3 - k*cos(x - y)",
+                     {{"forces", Value::Object{{"x", "3*sin(x)*y_t - k*t"}, {"y", "x^2*y"}}},
+                      {"dissipation", "0.2*(1 + x^2)*x_t^2 + 0.1*y_t^2"}},
+                     {{"m", 1.5}, {"k", 2}});
+}
+
+class JoinedForceTest : public QObject {
+    Q_OBJECT
+private slots:
+    void bothAreSums() {
+        constexpr int nodes = 8, d = 2;
+        const System s = forced();
+        const auto& L = s.mechanics();
+        const Force& force = *s.parts.find<Force>();
+        QVERIFY(force.withLagrangian && force.withLagrangian->lagrangian == L.model.get());
+        std::vector<double> t(nodes), q(d * nodes), v(d * nodes);
+        for (std::size_t i = 0; i < t.size(); ++i) t[i] = 0.1 * static_cast<double>(i);
+        for (std::size_t i = 0; i < q.size(); ++i) {
+            q[i] = std::sin(0.7 * static_cast<double>(i));
+            v[i] = std::cos(1.9 * static_cast<double>(i));
+        }
+        std::vector<double> g(2 * d * nodes), h(4 * d * d * nodes), f(d * nodes), df(2 * d * d * nodes);
+        std::vector<double> gBoth(g.size(), 7.0), hBoth(h.size(), 7.0);
+        L.gradients(L.model.get(), t.data(), nodes, q.data(), v.data(), g.data());
+        L.hessians(L.model.get(), t.data(), nodes, q.data(), v.data(), h.data());
+        force.values(force.model.get(), t.data(), nodes, q.data(), v.data(), f.data());
+        force.derivatives(force.model.get(), t.data(), nodes, q.data(), v.data(), df.data());
+        force.withLagrangian->gradients(force.model.get(), t.data(), nodes, q.data(), v.data(), gBoth.data());
+        force.withLagrangian->hessians(force.model.get(), t.data(), nodes, q.data(), v.data(), hBoth.data());
+        for (std::size_t i = 0; i < g.size(); ++i)
+            QVERIFY(std::abs(gBoth[i] - g[i] - (i < f.size() ? f[i] : 0)) < 1e-13);
+        for (std::size_t i = 0; i < h.size(); ++i)
+            QVERIFY(std::abs(hBoth[i] - h[i] - (i < df.size() ? df[i] : 0)) < 1e-13);
+    }
+
+    /// With the calls for both, with those of each alone, and with calls for both of another Lagrangian,
+    /// which would crash.
+    void stepsAreThoseOfBothAlone() {
+        const auto endOf = [](const System& s) {
+            return run({s, {0, 0, {0.3, -0.4, 1.0, 0.5}}}, "galerkin-gauss-3", 2, 40).state.x;
+        };
+        System alone = forced(), other = forced();
+        Force force = *alone.parts.find<Force>();
+        force.withLagrangian.reset();
+        alone.parts.set(force);
+        int another = 0;
+        force.withLagrangian =
+            std::make_shared<Force::WithLagrangian>(Force::WithLagrangian{&another, nullptr, nullptr});
+        other.parts.set(force);
+        const std::vector<double> x = endOf(forced()), expected = endOf(alone);
+        QVERIFY(std::abs(x[0] - 0.3) > 0.1);
+        for (std::size_t k = 0; k < x.size(); ++k) QVERIFY(std::abs(x[k] - expected[k]) < 1e-12);
+        QCOMPARE(endOf(other), expected);
+    }
+};
+
+EXTREMAL_TEST(JoinedForceTest)
+}  // namespace joined_force_test
+}  // namespace extremal::mechanism_test
+#include "joined_force_test.moc"
