@@ -5,12 +5,56 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/algebra/dense.hpp"
 #include "engine/mechanism/node_lanes.hpp"
 #include "engine/mechanism/rolling_rows.hpp"
+#include "engine/solve/null_space_lu.hpp"
 #include "engine/solve/small_lu.hpp"
 
 namespace extremal {
 namespace {
+
+/// Curves by their values at the Lobatto nodes e_1..e_m behind the start, Y_a = sum_j fit(a, j) u_j, and
+/// tests by theirs at e_0..e_{m-1}: constraints and impulses are then those of one node each, and Newton's
+/// system is solved on what constraints leave free (null_space_lu.hpp).
+struct NodalCurve {
+    using Matrix = Eigen::MatrixXd;
+    using Rows = Mechanism::Rows;
+
+    NodalCurve(const MechanismCurve& curve, const Matrix& testsAtPlaces, int constraints)
+        : m(curve.unknowns()),
+          d(curve.d),
+          fromNodes(curve.fit),
+          toNodes(curve.atPlaces.bottomRows(m)),
+          tests(dense::inverse<double>(Matrix(testsAtPlaces.topLeftCorner(m, m)))),
+          lu(m, d, constraints),
+          values(Matrix::Zero(m, d)) {}
+
+    /// Tests or functions, row by row or column by column, in place of those of the table.
+    Matrix testing(Matrix all) const {
+        all.topRows(m) = (tests * all.topRows(m)).eval();
+        return all;
+    }
+    Matrix curves(const Matrix& all) const { return all.cols() > 0 ? Matrix(all * fromNodes) : all; }
+
+    void solve(double* x) {
+        const Eigen::Map<Rows> given(x, m, d);
+        values = tests.lazyProduct(given);
+        lu.solve(values.data(), x + m * d);
+        Eigen::Map<Rows>(x, m, d) = fromNodes.lazyProduct(values);
+    }
+    void solveTransposed(double* x) {
+        const Eigen::Map<Rows> given(x, m, d);
+        values = fromNodes.transpose().lazyProduct(given);
+        lu.solveTransposed(values.data(), x + m * d);
+        Eigen::Map<Rows>(x, m, d) = tests.transpose().lazyProduct(values);
+    }
+
+    int m, d;
+    Matrix fromNodes, toNodes, tests;
+    NullSpaceLu lu;
+    Matrix values;  ///< (j, k)
+};
 
 /// R, A and their derivatives are sums over the nodes of three rules: of h L_q and L_v, of h F, and of the
 /// impulses of the multipliers.
@@ -26,22 +70,25 @@ public:
           curve_(curve),
           n_(mechanism.constraints()),
           holonomic_(mechanism.holonomic()),
-          inside_(curve.atLagrangian.rule.c, curve.atLagrangian.at, curve.d),
-          ofInside_(curve.atLagrangian.rule.b, curve.atLagrangian.at),
-          insideQq_(ofInside_.value(), curve.atLagrangian.at.value),
-          insideQv_(ofInside_.value(), curve.atLagrangian.at.slope),
-          insideVq_(ofInside_.slope(), curve.atLagrangian.at.value),
-          insideVv_(ofInside_.slope(), curve.atLagrangian.at.slope),
-          forced_(curve.atForces.rule.c, curve.atForces.at, curve.d),
-          ofForces_(curve.atForces.rule.b, curve.atForces.at),
-          forcesQ_(ofForces_.value(), curve.atForces.at.value),
-          forcesV_(ofForces_.value(), curve.atForces.at.slope),
           places_(curve.places, {curve.atPlaces, {}}, curve.d),
           ofImpulses_(ones(), {curve.atPlaces, {}}),
-          impulsesQ_(ofImpulses_.value(), curve.atPlaces),
+          nodal_(nodalCurve(mechanism)),
+          impulsesQ_(pairs(ofImpulses_.value(), curve.atPlaces)),
+          inside_(curve.atLagrangian.rule.c, curve.atLagrangian.at, curve.d),
+          ofInside_(curve.atLagrangian.rule.b, curve.atLagrangian.at),
+          insideQq_(pairs(ofInside_.value(), curve.atLagrangian.at.value)),
+          insideQv_(pairs(ofInside_.value(), curve.atLagrangian.at.slope)),
+          insideVq_(pairs(ofInside_.slope(), curve.atLagrangian.at.value)),
+          insideVv_(pairs(ofInside_.slope(), curve.atLagrangian.at.slope)),
+          isForcedInside_(curve.atForces.rule.c == curve.atLagrangian.rule.c &&
+                          curve.atForces.rule.b == curve.atLagrangian.rule.b),
+          forced_(curve.atForces.rule.c, curve.atForces.at, curve.d),
+          ofForces_(curve.atForces.rule.b, curve.atForces.at),
+          forcesQ_(pairs(ofForces_.value(), curve.atForces.at.value)),
+          forcesV_(pairs(ofForces_.value(), curve.atForces.at.slope)),
           ofRolling_(ones(), {curve.atRolling, {}}),
-          rollingQ_(ofRolling_.value(), curve.atRolling),
-          lu_(curve.unknowns() * (curve.d + n_)) {
+          rollingQ_(pairs(ofRolling_.value(), curve.atRolling)),
+          lu_(nodal_ ? 0 : curve.unknowns() * (curve.d + n_)) {
         const int d = curve_.d, m = curve_.unknowns();
         if (mechanism.rolling()) rolling_.emplace(*mechanism.rolling(), curve);
         residual_ = Vector::Zero(m * (d + n_));
@@ -64,6 +111,7 @@ public:
         rollingReactions_ = Matrix::Zero(m, d);
         rollingCurvatures_ = Matrix::Zero(m, rolling_ ? d * d : 0);
         curvature_ = Rows::Zero(d, d);
+        moved_ = residual_;
         byTime_ = Vector::Zero(holonomic_);
         block_ = Matrix::Zero(m + 1, m);
         impulseBy_ = Matrix::Zero(d, m * (d + n_));
@@ -78,24 +126,27 @@ public:
         h_ = h;
         z_ = z;
         impulses_ = impulses;
-        for (int a = 0; a < m; ++a) Y_.row(a) = z.segment((a + 1) * d, d).transpose();
+        Y_ = Eigen::Map<const Rows>(z.data() + d, m, d);
         kicks_.setZero();
         shifts_.setZero();
         addLagrangian(t);
-        if (force_) addForces(t);
+        if (force_ && !isForcedInside_) addForces(t);
         if (constraint_) addConstraints(t);
         if (rolling_) addRolling(t);
-        for (int a = 0; a < m; ++a)
-            residual_.segment(a * d, d) = (h * kicks_.row(a) + shifts_.row(a)).transpose();
+        shifts_ += h * kicks_;
+        Eigen::Map<Rows>(residual_.data(), m, d) = shifts_.topRows(m);
         residual_.segment((m - 1) * d, d) += p;
-        impulse_ = (h * kicks_.row(m) + shifts_.row(m)).transpose();
+        impulse_ = shifts_.row(m).transpose();
         return residual_.allFinite() && impulse_.allFinite();
     }
 
     Outcome factorise() override {
         const int d = curve_.d, m = curve_.unknowns();
         findSecondDerivatives();
-        lu_.clear();
+        if (nodal_)
+            nodal_->lu.clear();
+        else
+            lu_.clear();
         impulseBy_.setZero();
         for (int k = 0; k < d; ++k)
             for (int l = 0; l < d; ++l) addPair(k, l);
@@ -103,16 +154,37 @@ public:
             if (constraint_) setConstraints(j);
             if (rolling_) setRolling(j);
         }
-        return lu_.factorise();
+        if (!nodal_) return lu_.factorise();
+        for (int j = 0; j <= m; ++j)
+            Eigen::Map<Rows>(nodal_->lu.constraints(j), n_, d) =
+                Eigen::Map<const Rows, 0, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>>(
+                    firsts_.data() + byPlace(0, 0) * firsts_.rows() + j, n_, d,
+                    {d * firsts_.rows(), firsts_.rows()});
+        return nodal_->lu.factorise();
     }
-    void solve(Vector& x) const override { lu_.solve(x.data()); }
-    void solveTransposed(Vector& x) const override { lu_.solveTransposed(x.data()); }
+    void solve(Vector& x) const override {
+        if (nodal_)
+            nodal_->solve(x.data());
+        else
+            lu_.solve(x.data());
+    }
+    void solveTransposed(Vector& x) const override {
+        if (nodal_)
+            nodal_->solveTransposed(x.data());
+        else
+            lu_.solveTransposed(x.data());
+    }
     void reactions(const double* impulses, Vector& to) const override {
         const int count = curve_.unknowns() * n_;
         to.noalias() = impulseBy_.rightCols(count) * Eigen::Map<const Vector>(impulses, count);
     }
     bool moveImpulse(const Vector& correction) override {
-        impulse_.noalias() -= impulseBy_ * correction;
+        const int d = curve_.d, m = curve_.unknowns();
+        moved_ = correction;
+        if (nodal_)
+            Eigen::Map<Rows>(moved_.data(), m, d) =
+                nodal_->toNodes.lazyProduct(Eigen::Map<const Rows>(correction.data(), m, d));
+        impulse_.noalias() -= impulseBy_ * moved_;
         return true;
     }
 
@@ -120,32 +192,57 @@ private:
     std::vector<double> ones() const {
         return std::vector<double>(static_cast<std::size_t>(curve_.unknowns()), 1.0);
     }
+    std::optional<NodalCurve> nodalCurve(const Mechanism& mechanism) const {
+        if (mechanism.rolling() || n_ == 0 || !NullSpaceLu::isWorthwhile(curve_.d, n_)) return {};
+        return NodalCurve(curve_, ofImpulses_.value(), n_);
+    }
+    /// Of the functions that the matrix is of.
+    NodePairs pairs(const Matrix& tests, const Matrix& functions) const {
+        return nodal_ ? NodePairs(nodal_->testing(tests), nodal_->curves(functions))
+                      : NodePairs(tests, functions);
+    }
 
     void addLagrangian(double t) {
         const int d = curve_.d, stride = inside_.stride();
         inside_.moveTo(t, h_, z_.data(), Y_);
         const auto* const model = mechanics_.model.get();
-        if (mechanics_.gradients)
+        if (const auto* const both = withLagrangian())
+            both->gradients(force_->model.get(), inside_.times(), stride, inside_.q(), inside_.v(),
+                            gradients_.data());
+        else if (mechanics_.gradients)
             mechanics_.gradients(model, inside_.times(), stride, inside_.q(), inside_.v(), gradients_.data());
         else
             inside_.oneByOne(gradients_, [&](double time, const double* q, const double* v, double* to) {
                 mechanics_.gradient(model, time, q, v, to);
             });
+        if (force_ && isForcedInside_ && !withLagrangian()) {
+            takeForces(inside_);
+            gradients_.leftCols(d) += forces_;
+        }
         ofInside_.addValues(gradients_.data(), stride, kicks_);
         ofInside_.addSlopes(gradients_.col(d).data(), stride, shifts_);
     }
 
+    /// The force together with the Lagrangian at hand, where they have the same nodes; null else.
+    const Force::WithLagrangian* withLagrangian() const {
+        const auto* const both = force_ && isForcedInside_ ? force_->withLagrangian.get() : nullptr;
+        return both && both->lagrangian == mechanics_.model.get() ? both : nullptr;
+    }
+
+    /// Forces at nodes of their own.
     void addForces(double t) {
-        const int stride = forced_.stride();
         forced_.moveTo(t, h_, z_.data(), Y_);
+        takeForces(forced_);
+        ofForces_.addValues(forces_.data(), forced_.stride(), kicks_);
+    }
+    void takeForces(NodeLanes& nodes) {
         const auto* const model = force_->model.get();
         if (force_->values)
-            force_->values(model, forced_.times(), stride, forced_.q(), forced_.v(), forces_.data());
+            force_->values(model, nodes.times(), nodes.stride(), nodes.q(), nodes.v(), forces_.data());
         else
-            forced_.oneByOne(forces_, [&](double time, const double* q, const double* v, double* to) {
+            nodes.oneByOne(forces_, [&](double time, const double* q, const double* v, double* to) {
                 force_->value(model, time, q, v, to);
             });
-        ofForces_.addValues(forces_.data(), stride, kicks_);
     }
 
     /// Column of g_q in firsts_.
@@ -187,7 +284,10 @@ private:
     void findSecondDerivatives() {
         const int d = curve_.d;
         const auto* const model = mechanics_.model.get();
-        if (mechanics_.hessians)
+        if (const auto* const both = withLagrangian())
+            both->hessians(force_->model.get(), inside_.times(), inside_.stride(), inside_.q(), inside_.v(),
+                           hessians_.data());
+        else if (mechanics_.hessians)
             mechanics_.hessians(model, inside_.times(), inside_.stride(), inside_.q(), inside_.v(),
                                 hessians_.data());
         else
@@ -197,13 +297,14 @@ private:
             });
         for (int k = 0; k < d; ++k)
             masses_(k) = hessians_.col(entry(d + k, d + k)).head(inside_.nodes()).cwiseAbs().maxCoeff();
-        if (force_ && force_->derivatives)
-            force_->derivatives(force_->model.get(), forced_.times(), forced_.stride(), forced_.q(),
-                                forced_.v(), byState_.data());
-        else if (force_)
-            forced_.oneByOne(byState_, [&](double t, const double* q, const double* v, double* to) {
-                force_->first(force_->model.get(), t, q, v, gradient_.data(), to);
-            });
+        if (force_ && isForcedInside_ && !withLagrangian()) {
+            // Where L_q and F are one term of the equations, so are their derivatives: the first d of 2 d
+            // rows.
+            differentiateForces(inside_);
+            hessians_.leftCols(2 * d * d) += byState_;
+        } else if (force_ && !isForcedInside_) {
+            differentiateForces(forced_);
+        }
         for (int j = 1; constraint_ && j < curve_.unknowns(); ++j) {
             curvature_.setZero();
             constraint_->addCurvature(constraint_->model.get(), places_.times()[j], places_.placeOf(j),
@@ -214,6 +315,15 @@ private:
             const Rows& curvature = rolling_->curvature(j, z_, impulses_.data() + j * n_ + holonomic_);
             rollingCurvatures_.row(j) = Eigen::Map<const Eigen::RowVectorXd>(curvature.data(), d * d);
         }
+    }
+    void differentiateForces(NodeLanes& nodes) {
+        const auto* const model = force_->model.get();
+        if (force_->derivatives)
+            force_->derivatives(model, nodes.times(), nodes.stride(), nodes.q(), nodes.v(), byState_.data());
+        else
+            nodes.oneByOne(byState_, [&](double t, const double* q, const double* v, double* to) {
+                force_->first(model, t, q, v, gradient_.data(), to);
+            });
     }
     int entry(int row, int column) const { return 2 * curve_.d * row + column; }
 
@@ -226,7 +336,7 @@ private:
         isPresent |= insideQv_.add(hessian(k, d + l), 1, block_);
         isPresent |= insideVq_.add(hessian(d + k, l), 1, block_);
         isPresent |= insideVv_.add(hessian(d + k, d + l), 1 / h_, block_);
-        if (force_) {
+        if (force_ && !isForcedInside_) {
             isPresent |= forcesQ_.add(byState_.col(entry(k, l)).data(), h_, block_);
             isPresent |= forcesV_.add(byState_.col(entry(k, d + l)).data(), 1, block_);
         }
@@ -234,9 +344,13 @@ private:
         if (rolling_) isPresent |= rollingQ_.add(rollingCurvatures_.col(k * d + l).data(), 1, block_);
         if (!isPresent) return;
         for (int b = 0; b < m; ++b) {
+            impulseBy_(k, b * d + l) = block_(m, b);
+            if (nodal_) {
+                std::copy_n(block_.col(b).data(), m, nodal_->lu.column(l, b) + k * m);
+                continue;
+            }
             double* const column = lu_.column(b * d + l);
             for (int a = 0; a < m; ++a) column[a * d + k] = block_(a, b);
-            impulseBy_(k, b * d + l) = block_(m, b);
         }
     }
 
@@ -244,10 +358,11 @@ private:
     void setConstraints(int j) {
         const int d = curve_.d, m = curve_.unknowns();
         for (int c = 0; c < holonomic_; ++c) {
+            for (int i = 0; i < d; ++i) impulseBy_(i, m * d + j * n_ + c) = firsts_(j, byPlace(c, i));
+            if (nodal_) continue;
             double* const column = lu_.column(m * d + j * n_ + c);
             for (int i = 0; i < d; ++i) {
                 const double reaction = firsts_(j, byPlace(c, i)), rate = firsts_(j + 1, byPlace(c, i));
-                impulseBy_(i, m * d + j * n_ + c) = reaction;
                 for (int a = 0; a < m; ++a) {
                     column[a * d + i] = ofImpulses_.value()(a, j) * reaction;
                     lu_.column(a * d + i)[m * d + j * n_ + c] = curve_.atPlaces(j + 1, a) * rate;
@@ -275,15 +390,18 @@ private:
     std::optional<RollingRows> rolling_;
     MechanismCurve curve_;
     int n_, holonomic_;
+    NodeLanes places_;                         ///< e_j
+    NodeTests ofImpulses_;                     ///< at e_j, j < m
+    mutable std::optional<NodalCurve> nodal_;  ///< in place of lu_; what is mutable is room for a solution
+    NodePairs impulsesQ_;
     NodeLanes inside_;  ///< the nodes of L
     NodeTests ofInside_;
     NodePairs insideQq_, insideQv_, insideVq_, insideVv_;  ///< by which L is differentiated, twice
-    NodeLanes forced_;
+    /// Forces have the nodes of L, and are added to L_q there.
+    bool isForcedInside_;
+    NodeLanes forced_;  ///< the nodes of the forces
     NodeTests ofForces_;
     NodePairs forcesQ_, forcesV_;
-    NodeLanes places_;      ///< e_j
-    NodeTests ofImpulses_;  ///< at e_j, j < m
-    NodePairs impulsesQ_;
     NodeTests ofRolling_;  ///< at r_j
     NodePairs rollingQ_;
     SmallLu<double> lu_;
@@ -297,6 +415,7 @@ private:
     Matrix block_;      ///< (a, b), a = m for the function 1
     Matrix impulseBy_;  ///< dA by the unknowns
     Rows curvature_;
+    Vector moved_;              ///< a correction, of the functions of the matrix
     Vector gradient_, byTime_;  ///< not asked for
 };
 

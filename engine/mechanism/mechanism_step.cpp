@@ -282,13 +282,10 @@ private:
     /// would be others than the last ones, as in front of a turning point: a root near such a curve may be
     /// any.
     bool extrapolate() {
-        const auto& onward = curve_.table.extrapolation;
         const int d = dimension(), m = curve_.unknowns();
-        for (int a = 0; a < m; ++a) {
-            auto Y = Y_.segment(a * d, d);
-            Y.setZero();
-            for (int b = 0; b < m; ++b) Y += onward(a, b) * previousY_.segment(b * d, d);
-        }
+        using Curve = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+        const Eigen::Map<const Curve> previous(previousY_.data(), m, d);
+        Eigen::Map<Curve>(Y_.data(), m, d) = curve_.table.extrapolation.lazyProduct(previous);
         impulses_ = previousImpulses_;
         const auto last = previousY_.tail(d).array(), next = Y_.tail(d).array();
         const auto masses = previousMasses_.array();

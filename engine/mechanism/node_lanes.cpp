@@ -16,32 +16,40 @@ Eigen::Index inWholeLanes(Eigen::Index count) {
 }  // namespace
 
 NodeLanes::NodeLanes(const std::vector<double>& places, const MechanismCurve::Samples& at, int dimension)
-    : nodes_(static_cast<int>(places.size())) {
+    : nodes_(static_cast<int>(places.size())), d_(dimension) {
     const Eigen::Index rows = inWholeLanes(nodes_);
+    const bool hasSlopes = at.slope.cols() > 0;
     places_.resize(rows);
-    value_.resize(rows, at.value.cols());
-    slope_.resize(rows, at.slope.cols());
+    functions_.resize(hasSlopes ? 2 * rows : rows, at.value.cols());
     for (Eigen::Index i = 0; i < rows; ++i) {
         const Eigen::Index node = std::min<Eigen::Index>(i, nodes_ - 1);
         places_(i) = places[static_cast<std::size_t>(node)];
-        value_.row(i) = at.value.row(node);
-        if (slope_.cols() > 0) slope_.row(i) = at.slope.row(node);
+        functions_.row(i) = at.value.row(node);
+        if (hasSlopes) functions_.row(rows + i) = at.slope.row(node);
     }
     times_ = places_;
-    q_ = v_ = Matrix::Zero(rows, dimension);
-    motion_ = Vector::Zero(2 * dimension);
+    motion_ = Matrix::Zero(rows, 2 * d_);
+    own_ = Vector::Zero(2 * d_);
 }
 
 void NodeLanes::moveTo(double t, double h, const double* q0, const Matrix& Y) {
-    const auto d = static_cast<int>(q_.cols()), m = static_cast<int>(Y.rows());
+    const auto m = static_cast<int>(Y.rows()), height = static_cast<int>(functions_.rows());
+    const bool hasSlopes = height > stride();
     times_ = h * places_;
     times_.array() += t;
-    for (int k = 0; k < d; ++k) q_.col(k).setConstant(q0[k]);
-    sums_.product({value_.data(), stride(), Y.data(), m, q_.data(), stride(), stride(), d, m});
-    if (slope_.cols() == 0) return;
-    v_.setZero();
-    sums_.product({slope_.data(), stride(), Y.data(), m, v_.data(), stride(), stride(), d, m});
-    v_ /= h;
+    for (int k = 0; k < d_; ++k) motion_.col(k).setConstant(q0[k]);
+    if (hasSlopes) motion_.rightCols(d_).setZero();
+    const auto product = [&](int from, int rows, double* to) {
+        sums_.product({functions_.data() + from, height, Y.data(), m, to, stride(), rows, d_, m});
+    };
+    // Of one coordinate q and v are one column, whose sums do not wait for each other.
+    if (d_ == 1) {
+        product(0, height, motion_.data());
+    } else {
+        product(0, stride(), motion_.data());
+        if (hasSlopes) product(stride(), stride(), motion_.col(d_).data());
+    }
+    if (hasSlopes) motion_.rightCols(d_) /= h;
 }
 
 NodeTests::NodeTests(const std::vector<double>& weights, const MechanismCurve::Samples& at) {

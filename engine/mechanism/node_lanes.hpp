@@ -25,8 +25,6 @@ public:
 
     int nodes() const { return nodes_; }
     int stride() const { return static_cast<int>(places_.size()); }
-    const Matrix& value() const { return value_; }
-    const Matrix& slope() const { return slope_; }
     /// Room for so many entries of each node.
     Matrix room(int entries) {
         if (entries_.size() < entries) entries_ = Vector::Zero(entries);
@@ -36,34 +34,32 @@ public:
     /// Moves the nodes to q = q_0 + sum_a phi_a Y_a in a step of length h from t; Y: m x d.
     void moveTo(double t, double h, const double* q0, const Matrix& Y);
     const double* times() const { return times_.data(); }
-    const double* q() const { return q_.data(); }
-    const double* v() const { return v_.data(); }
+    const double* q() const { return motion_.data(); }
+    const double* v() const { return motion_.col(d_).data(); }
 
     /// `call(t, q, v, entries)` at one node after the other, for parts without a call for many; `to` has been
     /// made by room().
     template <class Call>
     void oneByOne(Matrix& to, const Call& call) {
-        const auto d = q_.cols();
         for (int i = 0; i < nodes_; ++i) {
-            motion_.head(d) = q_.row(i).transpose();
-            motion_.tail(d) = v_.row(i).transpose();
-            call(times_(i), motion_.data(), motion_.data() + d, entries_.data());
+            const double* const at = placeOf(i);
+            call(times_(i), at, at + d_, entries_.data());
             to.row(i) = entries_.head(to.cols()).transpose();
         }
     }
-    /// The place of node i.
+    /// The place of node i, with its velocity behind it.
     const double* placeOf(int i) {
-        motion_.head(q_.cols()) = q_.row(i).transpose();
-        return motion_.data();
+        own_ = motion_.row(i).transpose();
+        return own_.data();
     }
 
 private:
-    int nodes_;
+    int nodes_, d_;
     NodeSums sums_ = nodeSums();
     Vector places_, times_;
-    Matrix value_, slope_;  ///< (i, a)
-    Matrix q_, v_;
-    Vector motion_, entries_;  ///< of one node
+    Matrix functions_;      ///< (i, a): values, and slopes below them, in whole registers
+    Matrix motion_;         ///< (q, v) of the nodes, side by side
+    Vector own_, entries_;  ///< of one node
 };
 
 /// Sums over nodes with the test functions of a step: chi_a = phi_a (a < m - 1), chi_{m-1} = 1 - phi_{m-1},
