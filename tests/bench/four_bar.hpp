@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/core/algebra/lanes_trigonometry.hpp"
+
 namespace extremal::bench {
 
 struct FourBar {
@@ -54,28 +56,49 @@ struct FourBar {
         a[3] = (f[3] + l[1] * at.dy + l[2] * at.ey) / m2;
     }
 
-    /// Where the joints are at an angle of the crank: the loop is closed by two circles.
-    static std::array<double, 4> places(double angle) {
-        const double x = std::cos(angle), y = std::sin(angle), dx = base - x, dy = -y,
-                     square = dx * dx + dy * dy,
-                     along = (coupler * coupler - rocker * rocker + square) / (2 * square),
-                     across = std::sqrt(coupler * coupler / square - along * along);
+    /// Where the joints are at an angle of the crank: the loop is closed by two circles. Of numbers and of
+    /// lanes.
+    template <class T>
+    static std::array<T, 4> places(const T& angle) {
+        using std::cos;
+        using std::sin;
+        using std::sqrt;
+        const T x = cos(angle), y = sin(angle), dx = T(base) - x, dy = -y,
+                inverse = T(1.0) / (dx * dx + dy * dy),
+                along = T((coupler * coupler - rocker * rocker) / 2) * inverse + T(0.5),
+                across = sqrt(T(coupler * coupler) * inverse - along * along);
         return {x, y, x + along * dx - across * dy, y + along * dy + across * dx};
     }
-    /// The acceleration of the angle. With u and w the first and second derivative of the second joint by the
-    /// angle, (m1 + m2 u.u) a'' = torque - m1 g x1 - m2 g u_y - c u.u a' - m2 u.w a'^2.
+    /// With u and w the first and second derivative of the second joint by the angle: the mass is
+    /// m1 + m2 u.u, half its derivative m2 u.w, and that of the weights m1 g x1 + m2 g u_y.
+    template <class T>
+    struct AtAngle {
+        T mass, halfOfMassByAngle, weights, uu;
+        explicit AtAngle(const T& angle) {
+            const auto p = places(angle);
+            const T x = p[0], y = p[1], dx = p[2] - x, dy = p[3] - y, ex = p[2] - T(base), ey = p[3];
+            const T inverse = T(1.0) / (ex * dy - ey * dx), turn = (dy * x - dx * y) * inverse,
+                    ux = -turn * ey, uy = turn * ex;
+            uu = ux * ux + uy * uy;
+            // e.w = -u.u and d.w = -d.r - |u - r'|^2.
+            const T vx = ux + y, vy = uy - x, alongE = -uu, alongD = -(dx * x + dy * y) - (vx * vx + vy * vy);
+            const T wx = (alongE * dy - alongD * ey) * inverse, wy = (alongD * ex - alongE * dx) * inverse;
+            mass = T(m1) + T(m2) * uu;
+            halfOfMassByAngle = T(m2) * (ux * wx + uy * wy);
+            weights = T(m1 * g) * x + T(m2 * g) * uy;
+        }
+    };
+    /// The acceleration of the angle.
     static void accelerateAngle(const double* z, double* a) {
-        const auto p = places(z[0]);
-        const double x = p[0], y = p[1], dx = p[2] - x, dy = p[3] - y, ex = p[2] - base, ey = p[3];
-        const double inverse = 1 / (ex * dy - ey * dx), turn = (dy * x - dx * y) * inverse, ux = -turn * ey,
-                     uy = turn * ex;
-        // e.w = -u.u and d.w = -d.r - |u - r'|^2.
-        const double uu = ux * ux + uy * uy, vx = ux + y, vy = uy - x, alongE = -uu,
-                     alongD = -(dx * x + dy * y) - (vx * vx + vy * vy);
-        const double wx = (alongE * dy - alongD * ey) * inverse, wy = (alongD * ex - alongE * dx) * inverse;
-        a[0] = (torque - m1 * g * x - m2 * g * uy - damping * uu * z[1] -
-                m2 * (ux * wx + uy * wy) * z[1] * z[1]) /
-               (m1 + m2 * uu);
+        const AtAngle<double> at(z[0]);
+        a[0] = (torque - at.weights - damping * at.uu * z[1] - at.halfOfMassByAngle * z[1] * z[1]) / at.mass;
+    }
+    /// The rates of the angle and of its momentum.
+    template <class T>
+    static void ratesOfAngle(const T* z, T* dz) {
+        const AtAngle<T> at(z[0]);
+        dz[0] = z[1] / at.mass;
+        dz[1] = T(torque) - at.weights - T(damping) * at.uu * dz[0] + at.halfOfMassByAngle * dz[0] * dz[0];
     }
 };
 

@@ -5,7 +5,8 @@
 /// Codes for the same equations, four coordinates and three rods, are IDA (ida_four_bar.hpp) and explicit
 /// integrators of the accelerations (index 1), whose drift off the rods is part of their error; RATTLE takes
 /// no forces beside those of a potential. "minimal" is the same motion in the angle of the crank alone, which
-/// an expert derives for this one mechanism: a row of its own.
+/// an expert derives for this one mechanism: a row of its own. There Gauss collocation of the angle and its
+/// momentum by hand, which is our scheme in this angle, shows what no code of the scheme is much below.
 #pragma once
 
 #include <boost/numeric/odeint.hpp>
@@ -15,8 +16,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/text/text.hpp"
 #include "tests/bench/adaptive_peers.hpp"
+#include "tests/bench/first_order_peers.hpp"
 #include "tests/bench/four_bar.hpp"
 #include "tests/bench/ida_four_bar.hpp"
 #include "tests/bench/peer_table.hpp"
@@ -86,7 +89,7 @@ inline void addFourBarSchemes(std::vector<Curve>& curves, const std::string& pre
                                  false, steps, 0.2,
                                  [&](double n) { return known.errorBy(system, from, schemeOf(scheme), n); }));
     };
-    for (const double tolerance : {0.0, 1e-9, 1e-6, 1e-3})
+    for (const double tolerance : {0.0, 1e-11, 1e-9, 1e-8, 1e-6, 1e-5})
         for (const int s : {2, 3, 4, 6, 8})
             add("Gauss " + std::to_string(2 * s), *namedScheme("galerkin-gauss-" + std::to_string(s)),
                 tolerance);
@@ -148,11 +151,39 @@ inline void addFourBarPeers(std::vector<Curve>& curves, const KnownFourBar& know
                           [](const std::array<double, 2>& y) { return FourBar::places(y[0]); });
 }
 
+// For the vector instructions of this machine, as an expert compiles it.
+template <std::size_t stages>
+void fourBarByGauss(std::array<double, 2>* y, double end, double n, double tolerance) {
+    integrateByGauss<2, stages>(*y, end, n, tolerance,
+                                [](const auto* z, auto* dz) { FourBar::ratesOfAngle(z, dz); });
+}
+
+/// The steps that our schemes have.
+inline void addFourBarByGauss(std::vector<Curve>& curves, const KnownFourBar& known) {
+    const auto add = [&]<std::size_t stages> {
+        for (const double tolerance : {1e-14, 1e-9, 1e-6, 1e-3})
+            curves.push_back(measure(
+                "minimal, Gauss " + std::to_string(2 * stages) + " by hand to " + formatNumber(tolerance),
+                true, counts(150, 2e4, 1.25), 0.1, [&](double n) {
+                    std::array y{std::atan2(known.start[1], known.start[0]), 0.0};
+                    ForThisMachine<&fourBarByGauss<stages>>::call()(&y, known.preset.end, std::floor(n),
+                                                                    tolerance);
+                    return known.error(FourBar::places(y[0]));
+                }));
+    };
+    add.operator()<2>();
+    add.operator()<3>();
+    add.operator()<4>();
+    add.operator()<6>();
+    add.operator()<8>();
+}
+
 inline void fourBar(PeerTable& table) {
     const KnownFourBar known;
     std::vector<Curve> curves;
     addFourBarSchemes(curves, "", known, known.preset.system, known.preset.start);
     addFourBarPeers(curves, known);
+    addFourBarByGauss(curves, known);
     std::vector<Curve> same = curves;
     std::erase_if(same, [](const Curve& c) { return c.name.starts_with("minimal"); });
     table.add("P13 four-bar", same, 0);

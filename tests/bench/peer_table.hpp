@@ -12,6 +12,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/bench/cpu_time.hpp"
@@ -19,8 +20,10 @@
 namespace extremal::bench {
 
 /// Whether a peer is a scheme of the framework all the same, in code by hand or as a baseline: what one of
-/// ours could cost. By the beginning of its name.
-inline bool isOfFramework(const std::string& name) {
+/// ours could cost. By the beginning of its name, behind what says that it is in a single angle.
+inline bool isOfFramework(std::string_view name) {
+    constexpr std::string_view inOneAngle = "minimal, ";
+    if (name.starts_with(inOneAngle)) name.remove_prefix(inOneAngle.size());
     for (const char* const beginning :
          {"SRKN", "S10", "srkn", "blanes-moan", "strang", "suzuki", "impulse", "Gauss", "splitting",
           "arcs by hand", "logarithmic leapfrog", "pairs that turn", "RATTLE", "Deuflhard"})
