@@ -80,8 +80,7 @@ public:
           insideQv_(pairs(ofInside_.value(), curve.atLagrangian.at.slope)),
           insideVq_(pairs(ofInside_.slope(), curve.atLagrangian.at.value)),
           insideVv_(pairs(ofInside_.slope(), curve.atLagrangian.at.slope)),
-          isForcedInside_(curve.atForces.rule.c == curve.atLagrangian.rule.c &&
-                          curve.atForces.rule.b == curve.atLagrangian.rule.b),
+          isForcedInside_(curve.areForcesInside()),
           forced_(curve.atForces.rule.c, curve.atForces.at, curve.d),
           ofForces_(curve.atForces.rule.b, curve.atForces.at),
           forcesQ_(pairs(ofForces_.value(), curve.atForces.at.value)),

@@ -74,7 +74,11 @@ struct MechanismCurve {
     }
     Nodes atLagrangian;  ///< those of the table
     Nodes atForces;      ///< of the forces
-    Nodes atGauss;       ///< the m Gauss nodes, where rolling conditions hold
+    /// Whether forces act at the nodes of L.
+    bool areForcesInside() const {
+        return atForces.rule.c == atLagrangian.rule.c && atForces.rule.b == atLagrangian.rule.b;
+    }
+    Nodes atGauss;  ///< the m Gauss nodes, where rolling conditions hold
 };
 
 }  // namespace extremal

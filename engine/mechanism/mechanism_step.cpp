@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/algebra/exact_sum.hpp"
+#include "engine/integrator/forced_iteration.hpp"
 #include "engine/integrator/variation/hessian_pull.hpp"
 #include "engine/integrator/variation/transposed_step.hpp"
 #include "engine/mechanism/dense_equations.hpp"
@@ -53,7 +54,9 @@ public:
             Vector::Zero(d);
         previousY_ = Y_;
         previousImpulses_ = impulses_;
-        forces_ = Vector::Zero(d);
+        forces_ = increment_ = impulse_ = Vector::Zero(d);
+        if (mechanism_.force() && n == 0 && curve_.areForcesInside())
+            sweeps_ = ForcedIteration::of(mechanism_.mechanics(), *mechanism_.force(), table, step, policy);
         node_ = gradient_ = Vector::Zero(2 * d);
     }
 
@@ -203,8 +206,10 @@ public:
     std::span<const Quantity> quantities() const override { return said_.quantities(); }
     void measure(const State&, double* values) const override {
         std::fill_n(values, said_.quantities().size(), 0.0);
-        if (mechanism_.force()) measureForces(values);
-        values[SaidOfForces::work] += workOfConstraints();
+        if (mechanism_.force()) said_.addForces(forMeasures(), curve_, {start_, h_, z_}, values);
+        if (mechanism_.rolling() || (mechanism_.constraint() && mechanism_.constraint()->isTimeDependent))
+            values[SaidOfForces::work] += said_.workOfConstraints(
+                forMeasures(), curve_, {start_, h_, z_}, impulses_, isProjected() ? &kappa_ : nullptr);
     }
 
     std::string about() const override { return equations_->about(); }
@@ -212,7 +217,8 @@ public:
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<MechanismStep>(*this); }
     bool checkpoint(Archive& archive) override {
         archive(carryQ_, carryP_, q1_, p1_, previousY_, previousImpulses_, previousMasses_, previousStep_,
-                ladder_);
+                ladder_, isBySweeps_);
+        if (sweeps_) sweeps_->checkpoint(archive);
         return true;
     }
 
@@ -238,9 +244,24 @@ private:
         std::copy_n(gradient_.data() + d, d, x.data() + d);
     }
 
+    /// By sweeps over the nodes where they apply, or else by Newton's method.
+    Outcome solve(bool hasPrevious) {
+        const bool wasBySweeps = std::exchange(isBySweeps_, false);
+        if (!sweeps_) return byNewton(hasPrevious);
+        const bool isNext = wasBySweeps && hasPrevious;
+        const Outcome outcome = sweeps_->solve(
+            {start_, h_, z_.data(), p0_.data(), carryQ_.data(), carryP_.data(), isNext, stop()}, Y_, report_);
+        if (outcome == Outcome::converged) {
+            isBySweeps_ = true;
+            z_.tail(Y_.size()) = Y_;
+            areFactorsHere_ = isEvaluatedHere_ = false;
+        }
+        return isBySweeps_ || outcome == Outcome::stopped ? outcome : byNewton(hasPrevious);
+    }
+
     /// Newton's method from the last curve, or else from what is known at the start, and a second opinion
     /// where its root is far from that.
-    Outcome solve(bool hasPrevious) {
+    Outcome byNewton(bool hasPrevious) {
         correction_.begin();
         if (continues_ && ladder_.begin(hasPrevious) == StartingValue::extrapolated && extrapolate()) {
             const Outcome outcome = newton(h_, far);
@@ -395,9 +416,14 @@ private:
     bool finish() {
         const int d = dimension(), m = curve_.unknowns();
         const double end = start_ + h_;
-        for (int k = 0; k < d; ++k) q1_(k) = addExactly(z_(k), Y_((m - 1) * d + k) + carryQ_(k), carryQ_(k));
-        const Vector& impulse = equations_->impulse();
-        p1_ = p0_ + impulse;
+        if (isBySweeps_) {
+            sweeps_->increments(increment_, impulse_, carryQ_, carryP_);
+        } else {
+            increment_ = Y_.tail(d);
+            impulse_ = equations_->impulse();
+        }
+        for (int k = 0; k < d; ++k) q1_(k) = addExactly(z_(k), increment_(k) + carryQ_(k), carryQ_(k));
+        p1_ = p0_ + impulse_;
         if (isProjected()) {
             endVelocity_.setZero();
             for (int a = 0; a < m; ++a) endVelocity_ += curve_.endSlope(0, a) / h_ * Y_.segment(a * d, d);
@@ -407,7 +433,7 @@ private:
             forces_.setZero();
         }
         for (int k = 0; k < d; ++k)
-            p1_(k) = addExactly(p0_(k), impulse(k) + forces_(k) + carryP_(k), carryP_(k));
+            p1_(k) = addExactly(p0_(k), impulse_(k) + forces_(k) + carryP_(k), carryP_(k));
         return q1_.allFinite() && p1_.allFinite();
     }
 
@@ -415,45 +441,6 @@ private:
     Mechanism& forMeasures() const {
         if (!measured_) measured_.emplace(mechanism_);
         return *measured_;
-    }
-    /// Sums over the rule of the forces, on the curve of the last step.
-    void measureForces(double* values) const {
-        const Force& force = *mechanism_.force();
-        const int d = dimension();
-        Mechanism& mechanism = forMeasures();
-        Vector node(2 * d), F(d);
-        for (int i = 0; i < curve_.atForces.nodes(); ++i) {
-            curve_.motionAt(curve_.atForces, z_, i, h_, node);
-            const double t = start_ + curve_.atForces.place(i) * h_, weight = h_ * curve_.atForces.weight(i);
-            force.value(force.model.get(), t, node.data(), node.data() + d, F.data());
-            values[SaidOfForces::work] += weight * F.dot(node.tail(d));
-            values[SaidOfForces::expansion] += weight * mechanism.expansion(t, node.data(), node.data() + d);
-            F *= weight;
-            said_.addImpulse(t, node.data(), F.data(), values);
-        }
-    }
-    /// -sum_{j<m} Lambda_j . g_t at e_j and r_j - kappa . g_t at the end: what constraints that move with
-    /// time do, and rolling conditions with a velocity of their own.
-    double workOfConstraints() const {
-        if (!mechanism_.rolling() && !(mechanism_.constraint() && mechanism_.constraint()->isTimeDependent))
-            return 0;
-        Mechanism& mechanism = forMeasures();
-        const int m = curve_.unknowns(), n = constraints(), g = mechanism_.holonomic();
-        Vector q(dimension());
-        double sum = 0;
-        const auto byTimeAt = [&](double place, const Eigen::MatrixXd& at, int j) -> const Vector& {
-            curve_.placeAt(z_, at, j, q);
-            return mechanism.byTime(start_ + place * h_, q.data());
-        };
-        for (int j = 0; j < m; ++j) {
-            sum -= byTimeAt(curve_.place(j), curve_.atPlaces, j).head(g).dot(impulses_.segment(j * n, g));
-            if (mechanism_.rolling())
-                sum -= byTimeAt(curve_.rolling.c[static_cast<std::size_t>(j)], curve_.atRolling, j)
-                           .tail(n - g)
-                           .dot(impulses_.segment(j * n + g, n - g));
-        }
-        if (isProjected()) sum -= byTimeAt(1, curve_.atPlaces, m).dot(kappa_);
-        return sum;
     }
 
     Mechanism mechanism_;
@@ -472,8 +459,10 @@ private:
     StartingLadder ladder_;
     /// Whether the last evaluation, and the last factors, are those at the unknowns.
     bool isEvaluatedHere_ = false, areFactorsHere_ = false;
-    Vector forces_;
-    mutable Vector node_, gradient_;  ///< of one node
+    std::optional<ForcedIteration> sweeps_;
+    bool isBySweeps_ = false;              ///< the last step
+    Vector increment_, impulse_, forces_;  ///< of (q, p) in a step; reactions at its end
+    mutable Vector node_, gradient_;       ///< of one node
     std::optional<HessianPull> pull_;
     SaidOfForces said_;
     StepCorrection correction_;

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "engine/core/quantity.hpp"
+#include "engine/mechanism/mechanism.hpp"
+#include "engine/mechanism/mechanism_curve.hpp"
 #include "engine/model/parts/force.hpp"
 #include "engine/model/parts/wall.hpp"
 
@@ -46,6 +48,50 @@ public:
             to[d_ + i] += t * J[i];
             for (int j = 0; j < d_; ++j) to[2 * d_ + i * d_ + j] += J[i] * q[j];
         }
+    }
+
+    /// Sums over the rule of the forces, on the curve z of a step of length h from t.
+    struct Step {
+        double t, h;
+        const Eigen::VectorXd& z;
+    };
+    void addForces(Mechanism& mechanism, const MechanismCurve& curve, const Step& step,
+                   double* values) const {
+        const Force& force = *mechanism.force();
+        Eigen::VectorXd node(2 * d_), F(d_);
+        for (int i = 0; i < curve.atForces.nodes(); ++i) {
+            curve.motionAt(curve.atForces, step.z, i, step.h, node);
+            const double t = step.t + curve.atForces.place(i) * step.h,
+                         weight = step.h * curve.atForces.weight(i);
+            force.value(force.model.get(), t, node.data(), node.data() + d_, F.data());
+            values[work] += weight * F.dot(node.tail(d_));
+            values[expansion] += weight * mechanism.expansion(t, node.data(), node.data() + d_);
+            F *= weight;
+            addImpulse(t, node.data(), F.data(), values);
+        }
+    }
+
+    /// -sum_{j<m} Lambda_j . g_t at e_j and r_j - kappa . g_t at the end: what constraints that move with
+    /// time do, and rolling conditions with a velocity of their own. `kappa`: null where nothing is
+    /// projected.
+    double workOfConstraints(Mechanism& mechanism, const MechanismCurve& curve, const Step& step,
+                             const Eigen::VectorXd& reactions, const Eigen::VectorXd* kappa) const {
+        const int m = curve.unknowns(), n = mechanism.constraints(), g = mechanism.holonomic();
+        Eigen::VectorXd q(d_);
+        double sum = 0;
+        const auto byTimeAt = [&](double place, const Eigen::MatrixXd& at, int j) -> const Eigen::VectorXd& {
+            curve.placeAt(step.z, at, j, q);
+            return mechanism.byTime(step.t + place * step.h, q.data());
+        };
+        for (int j = 0; j < m; ++j) {
+            sum -= byTimeAt(curve.place(j), curve.atPlaces, j).head(g).dot(reactions.segment(j * n, g));
+            if (mechanism.rolling())
+                sum -= byTimeAt(curve.rolling.c[static_cast<std::size_t>(j)], curve.atRolling, j)
+                           .tail(n - g)
+                           .dot(reactions.segment(j * n + g, n - g));
+        }
+        if (kappa) sum -= byTimeAt(1, curve.atPlaces, m).dot(*kappa);
+        return sum;
     }
 
 private:

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "tests/engine/mechanism/mechanisms.hpp"
@@ -68,6 +69,40 @@ private slots:
         QVERIFY(std::abs(x[0] - 0.3) > 0.1);
         for (std::size_t k = 0; k < x.size(); ++k) QVERIFY(std::abs(x[k] - expected[k]) < 1e-12);
         QCOMPARE(endOf(other), expected);
+    }
+
+    /// Sweeps over the nodes, which a tolerance allows, end where Newton's method does; and where damping is
+    /// too stiff for them it is Newton's method that ends.
+    void sweepsEndWhereNewtonDoes() {
+        const auto endOf = [](const std::string& method, const std::string& dissipation, long long& solves) {
+            Discretization scheme = *namedScheme("galerkin-gauss-4");
+            scheme.solver = {method, {{"tolerance", 1e-10}}, {}};
+            const System s =
+                typedWith({"x", "y"}, "(1 + x^2)*x_t^2/2 + y_t^2/2 + x_t*y_t/3 + cos(x - y)",
+                          {{"forces", Value::Object{{"x", "sin(y)"}}}, {"dissipation", dissipation}});
+            const auto integrator = makeIntegrator(s, scheme, {0, 0.05});
+            State state{0, 0, {0.3, -0.4, 1.0, 0.5}};
+            integrator->begin(state);
+            solves = 0;
+            for (int i = 0; i < 60; ++i) {
+                const StepReport report = advance(*integrator, state);
+                if (report.outcome != Outcome::converged) return std::vector<double>{};
+                solves += report.cost.linearSolves;
+            }
+            return state.x;
+        };
+        for (const bool isStiff : {false, true}) {
+            const std::string dissipation = isStiff ? "400*x_t^2" : "0.1*x_t^2 + 0.2*y_t^2";
+            long long bySweeps = 0, byNewton = 0;
+            const std::vector<double> x = endOf("auto", dissipation, bySweeps),
+                                      expected = endOf("newton", dissipation, byNewton);
+            QVERIFY(x.size() == 4 && expected.size() == 4);
+            for (std::size_t k = 0; k < 4; ++k)
+                QVERIFY2(std::abs(x[k] - expected[k]) < 1e-8,
+                         qPrintable(QString::number(x[k] - expected[k])));
+            QVERIFY2(isStiff ? bySweeps > byNewton / 2 : bySweeps == 0,
+                     qPrintable(QString::number(bySweeps)));
+        }
     }
 };
 
