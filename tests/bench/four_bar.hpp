@@ -63,42 +63,46 @@ struct FourBar {
         using std::cos;
         using std::sin;
         using std::sqrt;
-        const T x = cos(angle), y = sin(angle), dx = T(base) - x, dy = -y,
-                inverse = T(1.0) / (dx * dx + dy * dy),
-                along = T((coupler * coupler - rocker * rocker) / 2) * inverse + T(0.5),
-                across = sqrt(T(coupler * coupler) * inverse - along * along);
+        const T x = cos(angle), y = sin(angle), dx = T(base) - x, dy = -y, square = dx * dx + dy * dy,
+                along = (T(coupler * coupler - rocker * rocker) + square) / (T(2.0) * square),
+                across = sqrt(T(coupler * coupler) / square - along * along);
         return {x, y, x + along * dx - across * dy, y + along * dy + across * dx};
     }
-    /// With u and w the first and second derivative of the second joint by the angle: the mass is
-    /// m1 + m2 u.u, half its derivative m2 u.w, and that of the weights m1 g x1 + m2 g u_y.
+    /// With u and w the first and second derivative of the second joint by the angle, the mass is m1 + m2
+    /// u.u, half its derivative m2 u.w, and the potential of the weights has the derivative m1 g x + m2 g
+    /// u_y.
     template <class T>
     struct AtAngle {
-        T mass, halfOfMassByAngle, weights, uu;
+        T mass, halfOfMassByAngle, x, uy, uu;
         explicit AtAngle(const T& angle) {
             const auto p = places(angle);
-            const T x = p[0], y = p[1], dx = p[2] - x, dy = p[3] - y, ex = p[2] - T(base), ey = p[3];
+            x = p[0];
+            const T y = p[1], dx = p[2] - x, dy = p[3] - y, ex = p[2] - T(base), ey = p[3];
             const T inverse = T(1.0) / (ex * dy - ey * dx), turn = (dy * x - dx * y) * inverse,
-                    ux = -turn * ey, uy = turn * ex;
+                    ux = -turn * ey;
+            uy = turn * ex;
             uu = ux * ux + uy * uy;
             // e.w = -u.u and d.w = -d.r - |u - r'|^2.
             const T vx = ux + y, vy = uy - x, alongE = -uu, alongD = -(dx * x + dy * y) - (vx * vx + vy * vy);
             const T wx = (alongE * dy - alongD * ey) * inverse, wy = (alongD * ex - alongE * dx) * inverse;
             mass = T(m1) + T(m2) * uu;
             halfOfMassByAngle = T(m2) * (ux * wx + uy * wy);
-            weights = T(m1 * g) * x + T(m2 * g) * uy;
         }
     };
     /// The acceleration of the angle.
     static void accelerateAngle(const double* z, double* a) {
         const AtAngle<double> at(z[0]);
-        a[0] = (torque - at.weights - damping * at.uu * z[1] - at.halfOfMassByAngle * z[1] * z[1]) / at.mass;
+        a[0] = (torque - m1 * g * at.x - m2 * g * at.uy - damping * at.uu * z[1] -
+                at.halfOfMassByAngle * z[1] * z[1]) /
+               at.mass;
     }
     /// The rates of the angle and of its momentum.
     template <class T>
     static void ratesOfAngle(const T* z, T* dz) {
         const AtAngle<T> at(z[0]);
         dz[0] = z[1] / at.mass;
-        dz[1] = T(torque) - at.weights - T(damping) * at.uu * dz[0] + at.halfOfMassByAngle * dz[0] * dz[0];
+        dz[1] = T(torque) - T(m1 * g) * at.x - T(m2 * g) * at.uy - T(damping) * at.uu * dz[0] +
+                at.halfOfMassByAngle * dz[0] * dz[0];
     }
 };
 
