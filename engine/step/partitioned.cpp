@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -170,6 +171,15 @@ private:
         }
         return true;
     }
+    bool stepInPlace(double, double* q, double* p) override {
+        const auto& m = this->mechanics_;
+        if (!m.kicksAndDrifts || m.isTimeDependent) return false;
+        const std::size_t size = static_cast<std::size_t>(this->d()) * sizeof(double);
+        bool isForceFresh = std::memcmp(forceAt_.data(), q, size) == 0;
+        takeAllAtOnce(q, p, isForceFresh, this->report_);
+        if (isForceFresh) std::memcpy(forceAt_.data(), q, size);
+        return true;
+    }
     void step(double t) override {
         if (!this->mechanics_.isSum() || this->mechanics_.isTimeDependent) {
             takeStages(t, [](auto&&...) { return true; });
@@ -182,8 +192,7 @@ private:
     /// The stages of a sum A(p) + B(q). `isForceFresh`: whether force_ is that of q, before and after.
     void kickAndDrift(double t, Vector& q, Vector& p, bool& isForceFresh, StepReport& report) {
         const auto& m = this->mechanics_;
-        const double h = this->h();
-        const auto drift = [&](double s) { this->drift(t, s, q, p, report); };
+        const auto drift = [&](double s) { this->drift(t, s, q.data(), p.data(), report); };
         if (!m.kicksAndDrifts) {
             takePairs(
                 isForceFresh,
@@ -200,18 +209,23 @@ private:
                 drift);
             return;
         }
+        takeAllAtOnce(q.data(), p.data(), isForceFresh, report);
+    }
+    /// The same by one call of the system.
+    void takeAllAtOnce(double* q, double* p, bool& isForceFresh, StepReport& report) {
+        const auto& m = this->mechanics_;
+        const double h = this->h();
         if (h != timesOf_) {
             times_ = pairs_;
             for (KickAndDrift<double>& pair : times_) pair = {pair.kick * h, pair.drift * h};
             timesOf_ = h;
         }
         if (firstDrift_ != 0) {
-            drift(firstDrift_ * h);
+            drift(this->startTime_, firstDrift_ * h, q, p, report);
             isForceFresh = false;
         }
         if (times_.empty()) return;
-        m.kicksAndDrifts(m.model.get(), times_, inverseMass_.data(), isForceFresh, q.data(), p.data(),
-                         force_.data());
+        m.kicksAndDrifts(m.model.get(), times_, inverseMass_.data(), isForceFresh, q, p, force_.data());
         report.cost.evaluations += static_cast<int>(times_.size()) - isForceFresh;
         isForceFresh = times_.back().drift == 0;
     }
@@ -281,20 +295,20 @@ private:
             }
             this->p1_ += s * force_;
         } else {
-            drift(t, s, this->q1_, this->p1_, this->report_);
+            drift(t, s, this->q1_.data(), this->p1_.data(), this->report_);
         }
     }
     /// q += s q', where the velocities are found: those of a typed Lagrangian may not be.
-    void drift(double t, double s, Vector& q, const Vector& p, StepReport& report) {
+    void drift(double t, double s, double* q, const double* p, StepReport& report) {
         const auto& m = this->mechanics_;
+        typename Base::View Q(q, this->d());
         if (!m.isSeparable) {
-            if (!m.velocity(m.model.get(), t, q.data(), p.data(), dq_.data()))
-                report.outcome = Outcome::singular;
-            q += s * dq_;
+            if (!m.velocity(m.model.get(), t, q, p, dq_.data())) report.outcome = Outcome::singular;
+            Q += s * dq_;
         } else if constexpr (D == Eigen::Dynamic) {
-            ForThisMachine<&driftAll>::call()(q.data(), s, inverseMass_.data(), p.data(), this->d());
+            ForThisMachine<&driftAll>::call()(q, s, inverseMass_.data(), p, this->d());
         } else {
-            q += (s * inverseMass_).cwiseProduct(p);
+            Q += (s * inverseMass_).cwiseProduct(Eigen::Map<const Vector>(p, this->d()));
         }
     }
     void explicitMap(bool isKick, double t, double s) {
