@@ -16,6 +16,7 @@
 #include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/model/typed/symbolic.hpp"
+#include "engine/model/typed/tape/tape_kicks.hpp"
 #include "engine/model/typed/tape/tape_registers.hpp"
 #include "engine/model/typed/tape/tape_run.hpp"
 
@@ -87,6 +88,10 @@ void force(const Model& m, double t, const double* q, const double* v, double* f
 }
 void forceAlone(const void* p, const double& t, const double* q, double* f) {
     force(self(p), t, q, nullptr, f);
+}
+void separableKicks(const void* p, std::span<const KickAndDrift<double>> pairs, const double* perMass,
+                    bool isForceKnown, double* q, double* momentum, double* f) {
+    kicksAndDrifts(self(p).force, pairs, perMass, isForceKnown, q, momentum, f);
 }
 
 /// Eight nodes at a time, in the instruction set of this machine: outputs of a tape at q, v and t, output k
@@ -322,6 +327,7 @@ public:
         m.isTimeDependent = n_.graph.dependsOn({n_.value}, [&](int s) { return s == formula_.time(); });
         if (findMasses()) {
             m.isSeparable = true;
+            m.kicksAndDrifts = separableKicks;
             m.forces = NodeTapes::forces();
             m.masses = model_->masses.data();
             Over<separableVelocity>::set(m);

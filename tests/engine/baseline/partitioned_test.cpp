@@ -7,6 +7,7 @@
 
 #include "engine/baseline/parts.hpp"
 #include "engine/step/partitioned.hpp"
+#include "tests/engine/model/typed/typed.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/slope.hpp"
 #include "tests/tools/test.hpp"
@@ -26,6 +27,27 @@ class PartitionedTest : public QObject {
     struct Slopes {
         double q, p;
     };
+    static void compareWithSingleForces(const System& system, std::vector<double> from) {
+        const Mechanics<double>& own = system.mechanics();
+        QVERIFY(own.kicksAndDrifts);
+        Mechanics<double> slow = own;
+        slow.kicksAndDrifts = nullptr;
+        const State start{0, 0, std::move(from)};
+        for (const auto& table : {strang, srkn14a, srkn19b}) {
+            const auto a = makePartitioned(own, 0.01, partitionedStages(table(), true)),
+                       b = makePartitioned(slow, 0.01, partitionedStages(table(), true));
+            State x = start, y = start;
+            for (int step = 0; step < 20; ++step) {
+                // Another step in between: durations of kicks follow it.
+                for (auto* each : {&a, &b}) (*each)->setStep(step == 10 ? 0.02 : 0.01);
+                const StepReport one = advance(*a, x), other = advance(*b, y);
+                QCOMPARE(one.outcome, Outcome::converged);
+                QCOMPARE(one.cost.evaluations, other.cost.evaluations);
+                QVERIFY(x.x == y.x);
+            }
+            QVERIFY(laws::distance(x.x, start.x, 0, start.x.size()) > 0.01);
+        }
+    }
     Slopes orders(const std::vector<PartitionedStage>& stages) const {
         const State exact = fine();
         std::vector<double> h, q, p;
@@ -66,26 +88,41 @@ private slots:
     void kicksAndDriftsByOneCall() {
         for (const char* name : {"pendulum", "harmonic-oscillator", "kepler", "henon-heiles"}) {
             const System system = laws::systemNamed(name);
-            const Mechanics<double>& own = system.mechanics();
-            QVERIFY(own.kicksAndDrifts);
-            Mechanics<double> slow = own;
-            slow.kicksAndDrifts = nullptr;
-            State start{0, 0, own.dimension == 1 ? std::vector{0.7, 0.3} : std::vector{0.5, 0.1, 0.2, 0.9}};
-            for (const auto& table : {strang, srkn14a, srkn19b}) {
-                const auto a = makePartitioned(own, 0.01, partitionedStages(table(), true)),
-                           b = makePartitioned(slow, 0.01, partitionedStages(table(), true));
-                State x = start, y = start;
-                for (int step = 0; step < 20; ++step) {
-                    // Another step in between: durations of kicks follow it.
-                    for (auto* each : {&a, &b}) (*each)->setStep(step == 10 ? 0.02 : 0.01);
-                    const StepReport one = advance(*a, x), other = advance(*b, y);
-                    QCOMPARE(one.outcome, Outcome::converged);
-                    QCOMPARE(one.cost.evaluations, other.cost.evaluations);
-                    QVERIFY2(x.x == y.x, name);
-                }
-                QVERIFY(laws::distance(x.x, start.x, 0, start.x.size()) > 0.01);
-            }
+            const bool isSingle = system.mechanics().dimension == 1;
+            compareWithSingleForces(system,
+                                    isSingle ? std::vector{0.7, 0.3} : std::vector{0.5, 0.1, 0.2, 0.9});
         }
+    }
+    void kicksAndDriftsOfTypedOnes() {
+        const auto chain = [](int n, const std::string& potential) {
+            return laws::typedSystem(Value::Array{"x[1..n]"}, {{"n", n}},
+                                     "sum(i, 1..n, x[i]_t^2/2) - (" + potential + ")");
+        };
+        const std::string springs = "sum(i, 1..n-1, (x[i+1]-x[i])^2/2 + (x[i+1]-x[i])^4/4)";
+        for (const System& system :
+             {laws::typedKepler(),
+              laws::typedSystem({"x", "y"}, {{"m", 3}},
+                                "m/2*x_t^2 + y_t^2/2 - x^2/2 - y^2/2 - x^2*y + y^3/3"),
+              laws::typedSystem({"x", "y"}, {{"k", 1}}, "x_t^2/2 + y_t^2/2 + k*x*y"),  // a force is y
+              chain(4, springs), chain(64, springs + " + x[1]^2/2 + x[1]^4/4 + x[n]^2/2 + x[n]^4/4"),
+              chain(77, springs + " + sum(i, 1..n, 1 - cos(x[i]))"),
+              chain(70, "sum(i, 2..n, (x[i]-x[1])^4/(4*i))"), chain(66, "-sum(i, 1..n-1, x[i]*x[i+1])"),
+              chain(130, "sum(i, 1..n, sqrt(1 + x[i]^2)) + sum(i, 1..n-1, 1/(3 + x[i+1]-x[i]))")}) {
+            const auto d = static_cast<std::size_t>(system.mechanics().dimension);
+            std::vector<double> start(2 * d);
+            for (std::size_t k = 0; k < 2 * d; ++k) start[k] = std::sin(1.0 + static_cast<double>(k * k));
+            compareWithSingleForces(system, start);
+        }
+    }
+    void aStepWithoutAnEndLeavesTheState() {
+        const System system = laws::systemNamed("henon-heiles");
+        const State start{0, 0, {1e200, 1, 2, 3}};
+        State state = start;
+        const auto method = makePartitioned(system.mechanics(), 0.1, partitionedStages(strang(), true));
+        QCOMPARE(advance(*method, state).outcome, Outcome::notFinite);
+        QVERIFY(state.x == start.x);
+        QCOMPARE(state.node, start.node);
+        QCOMPARE(state.t, start.t);
     }
     void nystromMethodsAreForSeparableSystems() {
         const System kepler = laws::systemNamed("kepler");

@@ -47,19 +47,31 @@ public:
             for (const std::uint32_t r : ended) free_.release(r);
         };
         if (block.size() == 1) release();
-        const auto count = static_cast<std::uint32_t>(block.size());
-        std::uint32_t to = free_.take(count);
+        std::uint32_t to = takeFor(block);
         for (Line::Step& step : block) step.code.to = place_[step.makes] = to++;
         if (block.front().makesToo != Line::none) {
-            to = free_.take(count);
+            to = takeFor(block);
             for (Line::Step& step : block) step.code.c = place_[step.makesToo] = to++;
         }
         if (block.size() > 1) release();
     }
     std::uint32_t of(std::uint32_t value) const { return place_[value]; }
-    std::uint32_t end() const { return free_.end(); }
+    /// One past the last register that is read or written; loops go over whole registers of the machine.
+    std::uint32_t end() const { return free_.end() + (isGrouped_ ? loopOverrun : 0); }
 
 private:
+    /// Registers side by side for what a block makes. A loop writes past its end while nothing is kept there;
+    /// those registers are free again behind it.
+    std::uint32_t takeFor(std::span<const Line::Step> block) {
+        const auto count = static_cast<std::uint32_t>(block.size());
+        if (count == 1) return free_.take(count);
+        isGrouped_ = true;
+        const std::uint32_t to = free_.take(count + loopOverrun);
+        for (std::uint32_t k = count; k < count + loopOverrun; ++k) free_.release(to + k);
+        return to;
+    }
+
+    bool isGrouped_ = false;
     Line& line_;
     std::vector<std::uint32_t> place_;  ///< of each value
     std::uint32_t firstFree_;
@@ -107,7 +119,7 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     tape.registers_ = placing.end();
     for (const std::uint32_t v : line.outputs) tape.outputs_.push_back(placing.of(v));
     tape.findStretches();
-    if (tape.groups_.empty()) tape.one_ = std::make_shared<MachineCode>(false);
+    tape.one_ = std::make_shared<MachineCode>(false);
     tape.eight_ = std::make_shared<MachineCode>(true);
     return tape;
 }
@@ -137,8 +149,8 @@ void Tape::copyOutputs(std::size_t first, std::size_t count, const double* r, do
 }
 
 void Tape::run(double* r) const {
+    if (const auto code = forOne()) return code(r);
     if (!groups_.empty()) return runGroups(*this, r);
-    if (const auto code = one_ ? one_->of(*this) : nullptr) return code(r);
     detail::run(*this, r);
 }
 

@@ -50,6 +50,10 @@ struct TapeGroup {
     std::uint32_t first = 0, count = 1;
     bool isLoop = false;  ///< several instructions of arithmetic
     Operand a = Operand::single, b = Operand::single, c = Operand::single;
+
+    bool isSideBySide() const {
+        return isLoop && a != Operand::scattered && b != Operand::scattered && c != Operand::scattered;
+    }
 };
 
 /// A derivative of a table.
@@ -76,8 +80,9 @@ public:
 
     /// The register of each output.
     std::span<const std::uint32_t> outputPlaces() const { return outputs_; }
-    /// The code that carries it out for eight of each number side by side; null where it has none, or not
+    /// The code that carries it out, of each number one or eight side by side; null where it has none, or not
     /// yet.
+    MachineCode::Call forOne() const { return one_ ? one_->of(*this) : nullptr; }
     MachineCode::Call forEight() const { return eight_ ? eight_->of(*this) : nullptr; }
     /// A copy that will have no code.
     Tape withoutCode() const {
@@ -92,14 +97,16 @@ public:
     const T& output(std::size_t i, const T* r) const {
         return r[outputs_[i]];
     }
-    /// Outputs first, first + 1, ... of those that were computed last.
-    void copyOutputs(std::size_t first, std::size_t count, const double* r, double* to) const;
-
-private:
     /// Outputs whose registers are side by side, up to the output `end`.
     struct Stretch {
         std::uint32_t end, afterRegister;  ///< afterRegister: one past that of the last
     };
+    /// Empty where most of them are short.
+    std::span<const Stretch> stretches() const { return stretches_; }
+    /// Outputs first, first + 1, ... of those that were computed last.
+    void copyOutputs(std::size_t first, std::size_t count, const double* r, double* to) const;
+
+private:
     void findStretches();
 
     std::size_t inputs_ = 0, registers_ = 0;
@@ -108,8 +115,8 @@ private:
     std::vector<TapeGroup> groups_;
     std::vector<LookUp> tables_;
     std::vector<std::uint32_t> outputs_;
-    std::shared_ptr<MachineCode> one_, eight_;  ///< of all copies; one_: where there are no groups
-    std::vector<Stretch> stretches_;            ///< of the outputs; empty where most of them are short
+    std::shared_ptr<MachineCode> one_, eight_;  ///< of all copies
+    std::vector<Stretch> stretches_;
 };
 
 }  // namespace extremal::typed

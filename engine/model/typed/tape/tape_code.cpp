@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/model/typed/tape/tape_forms.hpp"
+
 namespace extremal::typed {
 namespace {
 
@@ -73,26 +75,39 @@ std::uint32_t Code::make(Op op, std::uint32_t a, std::uint32_t b, std::uint32_t 
     return made_[key] = static_cast<std::uint32_t>(items_.size() - 1);
 }
 
-/// A common size of all coefficients is multiplied in at the end: c (a - b).
+/// What is a function of one form is added first.
 std::uint32_t Code::sum(const Graph::Node& node) {
-    const double first = std::fabs(node.operands.front().factor);
-    const bool isCommon = std::all_of(node.operands.begin(), node.operands.end(),
-                                      [&](const Graph::Operand& o) { return std::fabs(o.factor) == first; });
-    if (!isCommon || first == 1 || node.number != 0) return plainSum(node.number, node.operands, 1);
-    const bool isNegative = node.operands.size() == 1 && node.operands[0].factor < 0;
+    const SumByForms sorted = byForms(graph_, node);
+    const auto valuesOf = [&](const std::vector<Graph::Operand>& terms) {
+        std::vector<Scaled> values;
+        for (const auto& [term, factor] : terms) values.push_back({value(term), factor});
+        return values;
+    };
+    std::vector<Scaled> all = valuesOf(sorted.others);
+    for (const auto& [terms, isNegative] : sorted.groups)
+        all.push_back({scaledSum(0, valuesOf(terms)), isNegative ? -1.0 : 1.0});
+    return scaledSum(sorted.number, all);
+}
+
+/// A common size of all coefficients is multiplied in at the end: c (a - b).
+std::uint32_t Code::scaledSum(double start, const std::vector<Scaled>& terms) {
+    const double first = std::fabs(terms.front().factor);
+    const bool isCommon = std::all_of(terms.begin(), terms.end(),
+                                      [&](const Scaled& term) { return std::fabs(term.factor) == first; });
+    if (!isCommon || first == 1 || start != 0) return plainSum(start, terms, 1);
+    const bool isNegative = terms.size() == 1 && terms[0].factor < 0;
     const double scale = isNegative ? -first : first;
-    const std::uint32_t inner = plainSum(0, node.operands, scale);
+    const std::uint32_t inner = plainSum(0, terms, scale);
     return make(Op::multiply, constant(scale), inner);
 }
 
 /// constant + sum of (factor / scale) term: one after the other, what is taken away last. Of many terms those
 /// of one half are added to those of the other, again and again: these additions do not wait for each other,
 /// and the error grows with the logarithm of their number.
-std::uint32_t Code::plainSum(double start, const std::vector<Graph::Operand>& terms, double scale) {
+std::uint32_t Code::plainSum(double start, const std::vector<Scaled>& terms, double scale) {
     constexpr std::size_t few = 16;
     std::vector<Term> plus, minus, scaled;
-    for (const auto& [node, factor] : terms) {
-        const std::uint32_t v = value(node);
+    for (const auto& [v, factor] : terms) {
         if (factor == scale)
             plus.push_back({v, false});
         else if (factor == -scale)
@@ -108,7 +123,9 @@ std::uint32_t Code::plainSum(double start, const std::vector<Graph::Operand>& te
         for (std::size_t k = half; k < all.size(); ++k) all[k - half] = added(all[k - half], all[k]);
         all.resize(half);
     }
+    // Where all are taken away, from the negative of the first, which has not to wait for the others.
     Term sum = all.front();
+    if (sum.isNegative && all.size() > 1) sum = {make(Op::negate, sum.value), false};
     for (std::size_t k = 1; k < all.size(); ++k) sum = added(sum, all[k]);
     return sum.isNegative ? make(Op::negate, sum.value) : sum.value;
 }

@@ -33,10 +33,15 @@ private:
         std::uint32_t value;
         bool isNegative;
     };
+    struct Scaled {
+        std::uint32_t value;
+        double factor;
+    };
     std::uint32_t constant(double number);
     std::uint32_t make(Op op, std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0);
     std::uint32_t sum(const Graph::Node& node);
-    std::uint32_t plainSum(double constant, const std::vector<Graph::Operand>& terms, double scale);
+    std::uint32_t scaledSum(double constant, const std::vector<Scaled>& terms);
+    std::uint32_t plainSum(double constant, const std::vector<Scaled>& terms, double scale);
     Term added(Term a, Term b);
     std::uint32_t product(const Graph::Node& node);
     std::uint32_t power(std::uint32_t base, double exponent);

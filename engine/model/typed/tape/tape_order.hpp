@@ -7,10 +7,14 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/model/typed/tape/tape.hpp"
 #include "engine/model/typed/tape/tape_line.hpp"
 
 namespace extremal::typed {
+
+/// How many registers a loop may write past its end, where it goes over whole ones of the machine.
+constexpr std::uint32_t loopOverrun = Lanes::size - 1;
 
 /// Sorts steps of one operation whose operands are registers: those whose operands are side by side, or the
 /// same, come after each other.

@@ -12,23 +12,15 @@
 
 namespace extremal::typed {
 
-class TapeRegisters {
+/// The registers of one evaluation.
+class TapeRoom {
 public:
-    /// Runs the tape on the inputs that `fill(double*)` puts in front.
-    template <class Fill>
-    TapeRegisters(const Tape& tape, const Fill& fill)
-        : tape_(tape), at_(tape.registers() <= std::size(small_) ? small_ : large(tape.registers())) {
-        fill(at_);
-        tape.run(at_);
-    }
-    TapeRegisters(const TapeRegisters&) = delete;
-    TapeRegisters& operator=(const TapeRegisters&) = delete;
+    explicit TapeRoom(std::size_t size) : at_(size <= std::size(small_) ? small_ : large(size)) {}
+    TapeRoom(const TapeRoom&) = delete;
+    TapeRoom& operator=(const TapeRoom&) = delete;
 
-    double operator[](std::size_t output) const { return tape_.output(output, at_); }
-    /// Outputs first, first + 1, ...
-    void copy(std::size_t first, std::size_t count, double* to) const {
-        tape_.copyOutputs(first, count, at_, to);
-    }
+    double* data() { return at_; }
+    const double* data() const { return at_; }
 
 private:
     static double* large(std::size_t size) {
@@ -37,9 +29,29 @@ private:
         if (registers.size() < lines) registers.resize(lines);
         return registers.data()->lane.data();
     }
-    const Tape& tape_;
     alignas(Lanes) double small_[192];
     double* at_;
+};
+
+/// What a tape computes at some inputs.
+class TapeRegisters {
+public:
+    /// Runs the tape on the inputs that `fill(double*)` puts in front.
+    template <class Fill>
+    TapeRegisters(const Tape& tape, const Fill& fill) : tape_(tape), room_(tape.registers()) {
+        fill(room_.data());
+        tape.run(room_.data());
+    }
+
+    double operator[](std::size_t output) const { return tape_.output(output, room_.data()); }
+    /// Outputs first, first + 1, ...
+    void copy(std::size_t first, std::size_t count, double* to) const {
+        tape_.copyOutputs(first, count, room_.data(), to);
+    }
+
+private:
+    const Tape& tape_;
+    TapeRoom room_;
 };
 
 }  // namespace extremal::typed
