@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "engine/model/first_order/first_order.hpp"
@@ -100,6 +101,12 @@ void force(const void* model, const double& t, const double* q, double* f) {
     std::transform(g.data(), g.data() + of.dimension, f, [](double slope) { return -slope; });
 }
 
+void kicksAndDrifts(const void* model, std::span<const KickAndDrift<double>> pairs, const double* perMass,
+                    bool isForceKnown, double* q, double* p, double* force) {
+    const PhaseMechanics& of = self(model);
+    of.kicksAndDrifts(of.model.get(), pairs, perMass, isForceKnown, q, p, force);
+}
+
 }  // namespace
 
 Mechanics<double> flowOf(const PhaseMechanics& mechanics) {
@@ -116,6 +123,7 @@ Mechanics<double> flowOf(const PhaseMechanics& mechanics) {
         if (mechanics.forces) made.forces = forces;
     }
     if (mechanics.isSeparable() || mechanics.force) made.force = force;
+    if (mechanics.kicksAndDrifts) made.kicksAndDrifts = kicksAndDrifts;
     made.model = model;
     made.velocity = velocity;
     made.energy = energy;

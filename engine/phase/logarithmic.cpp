@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/core/own_buffers.hpp"
@@ -68,6 +69,20 @@ void force(const void* model, double, const double* q, double* f) {
     const double perDepth = 1 / depth(m, q);
     for (std::size_t k = 1; k <= d; ++k) f[k] *= perDepth;
 }
+void kicksAndDrifts(const void* model, std::span<const KickAndDrift<double>> pairs, const double*,
+                    bool isForceKnown, double* q, double* p, double* f) {
+    const LogarithmicModel& m = self(model);
+    const std::size_t n = m.H.inverseMasses.size() + 1;
+    for (const KickAndDrift<double>& pair : pairs) {
+        if (!isForceKnown) force(model, 0, q, f);
+        isForceKnown = false;
+        for (std::size_t k = 0; k < n; ++k) p[k] += pair.kick * f[k];
+        if (pair.drift == 0) continue;
+        const double rate = 1 / forward(m, p);
+        q[0] += pair.drift * rate;
+        for (std::size_t k = 1; k < n; ++k) q[k] += pair.drift * (m.H.inverseMasses[k - 1] * p[k] * rate);
+    }
+}
 void gradient(const void* model, double t, const double* q, const double* p, double* g) {
     const int n = self(model).H.dimension + 1;
     force(model, t, q, g);
@@ -122,6 +137,7 @@ PhaseMechanics logarithmicMotion(const PhaseMechanics& H, const EnergyFormula* f
     K.hessian = hessian;
     K.velocity = velocity;
     K.force = force;
+    K.kicksAndDrifts = kicksAndDrifts;
     K.model = std::make_shared<const LogarithmicModel>(
         LogarithmicModel{H, c, formula ? kickOf(*formula, H.dimension, c) : typed::Tape(), nextModelId()});
     return K;

@@ -10,6 +10,7 @@
 
 #include "engine/phase/monitored.hpp"
 #include "engine/run/run.hpp"
+#include "engine/step/partitioned.hpp"
 #include "engine/core/text/text.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/quoted.hpp"
@@ -201,6 +202,28 @@ class LogarithmicTest : public QObject {
                 x(3) = -problem.energy.energy(problem.energy.model.get(), 0, x.data() + 1, x.data() + 4);
                 K.velocity(m, 0, x.data() + 3, v.data());
                 QVERIFY(std::abs(v(0) / (*problem.monitor)(x.data() + 1, x.data() + 4) - 1) < 1e-14);
+            }
+    }
+    /// Kicks and drifts in turn by one call of K, and by a call for each.
+    void oneCallHasTheBitsOfMany() {
+        for (const std::string& model : {kepler, oblate})
+            for (const Splitting& splitting : {strang(), blanesMoanS10(), srkn14a()}) {
+                const ReadScene read = sceneOf(model, 0.5, following(knots("strang")), 0.02, 10);
+                const ResolvedScene& r = *read.resolved;
+                const MonitoredProblem problem =
+                    monitoredProblem(*r.system, read.scene.schemes[0].monitor, r.initial, 0.02);
+                PhaseMechanics K = problem.system.part<PhaseMechanics>();
+                const auto stages = partitionedStages(splitting, true);
+                State one = problem.start, other = one;
+                const auto byOne = makePartitioned(flowOf(K), 0.05, stages);
+                QVERIFY(K.kicksAndDrifts);
+                K.kicksAndDrifts = nullptr;
+                const auto byMany = makePartitioned(flowOf(K), 0.05, stages);
+                for (int k = 1; k <= 20; ++k) {
+                    QCOMPARE(byOne->advance(one, k * 0.05).outcome, Outcome::converged);
+                    QCOMPARE(byMany->advance(other, k * 0.05).outcome, Outcome::converged);
+                    QVERIFY(one.x == other.x);
+                }
             }
     }
     /// In (t, q; -E, p), by the scheme.

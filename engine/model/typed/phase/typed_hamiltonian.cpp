@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "engine/core/algebra/instruction_set.hpp"
@@ -13,6 +14,7 @@
 #include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape/tape.hpp"
+#include "engine/model/typed/tape/tape_kicks.hpp"
 #include "engine/model/typed/tape/tape_registers.hpp"
 #include "engine/model/typed/typed_model.hpp"
 
@@ -60,6 +62,10 @@ void velocityAt(const void* model, double t, const double* p, double* v) {
 void forceAt(const void* model, double t, const double* q, double* f) {
     const PhaseModel& m = modelOf(model);
     PhaseRegisters(m, m.force, t, q, q).copy(0, m.d, f);
+}
+void separableKicks(const void* model, std::span<const KickAndDrift<double>> pairs, const double* perMass,
+                    bool isForceKnown, double* q, double* p, double* force) {
+    kicksAndDrifts(modelOf(model).force, pairs, perMass, isForceKnown, q, p, force);
 }
 void hessianAt(const void* model, double t, const double* q, const double* p, double* hessian) {
     const PhaseModel& m = modelOf(model);
@@ -164,6 +170,7 @@ public:
             m.force = forceAt;
             m.velocity = velocityAt;
             if (m.isSeparable()) m.forces = ForThisMachine<&forceLanes>::call();
+            if (m.isSeparable()) m.kicksAndDrifts = separableKicks;
         }
         m.model = model;
         for (int i = 0; i < d_; ++i)

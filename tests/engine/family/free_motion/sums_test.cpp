@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/model/symplectic_form.hpp"
+#include "engine/step/partitioned.hpp"
 #include "engine/core/text/text.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/quoted.hpp"
@@ -260,6 +261,27 @@ class SumsTest : public QObject {
                 const bool isOfTime = std::string(of.name) == "of the time";
                 QVERIFY2(isOfTime ? tests::apart(one, other) < 1e-14 : one == other, of.name);
             }
+    }
+    /// Of a separable Hamiltonian: kicks and drifts by one call, and by a call for each.
+    void oneCallHasTheBitsOfMany() {
+        const Sum of{"separable", "p_x^2/2 + p_y^2/3 + cos(x - y) + x^4/4 + y", {0.5, -0.4}, {0.2, 0.6}, {},
+                     {}};
+        const ReadScene read = sceneOf(of, knots("strang"), 0.1);
+        PhaseMechanics H = read.resolved->system->part<PhaseMechanics>();
+        for (const Splitting& splitting : {strang(), srkn11b(), srkn14a()}) {
+            const auto stages = partitionedStages(splitting, true);
+            State one = read.resolved->initial, other = one;
+            H.kicksAndDrifts = read.resolved->system->part<PhaseMechanics>().kicksAndDrifts;
+            QVERIFY(H.kicksAndDrifts);
+            const auto byOne = makePartitioned(flowOf(H), 0.1, stages);
+            H.kicksAndDrifts = nullptr;
+            const auto byMany = makePartitioned(flowOf(H), 0.1, stages);
+            for (int k = 1; k <= 20; ++k) {
+                QCOMPARE(byOne->advance(one, k * 0.1).outcome, Outcome::converged);
+                QCOMPARE(byMany->advance(other, k * 0.1).outcome, Outcome::converged);
+                QVERIFY(one.x == other.x);
+            }
+        }
     }
     /// L = T(v) - V(q) whose velocities are found by Newton's method.
     void lagrangiansAreSumsAsWell() {
