@@ -2,46 +2,79 @@
 #include "engine/step/wave_splitting.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "engine/core/algebra/complex_vectors.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes_trigonometry.hpp"
+#include "engine/core/algebra/registers.hpp"
 #include "engine/model/wave/interaction.hpp"
 #include "engine/step/wave_step.hpp"
 
 namespace extremal {
 namespace {
 
-/// The first `count` of eight.
-template <class Count>
-inline void kickEight(const double* V, double density, double factor, double scale, Count count,
-                      double* psi) {
-    Lanes re, im, angle;
-    for (std::size_t k = 0; k < count; ++k) {
-        re.lane[k] = psi[2 * k];
-        im.lane[k] = psi[2 * k + 1];
-        angle.lane[k] = V[k];
-    }
-    angle = Lanes(factor) * (angle + Lanes(density) * (re * re + im * im));
-    const Lanes c = Lanes(scale) * cos(angle), s = Lanes(scale) * sin(angle), x = re * c - im * s,
-                y = re * s + im * c;
-    for (std::size_t k = 0; k < count; ++k) {
-        psi[2 * k] = x.lane[k];
-        psi[2 * k + 1] = y.lane[k];
+using Places = long long __attribute__((vector_size(64)));
+
+/// Eight real and eight imaginary parts, which take turns in memory. hasEight: the machine has registers of
+/// eight numbers; the compiler makes no shuffles of these loops.
+template <bool hasEight>
+inline void readParts(const double* from, Lanes& re, Lanes& im) {
+    if constexpr (hasEight) {
+        registers::Eight low, high;
+        registers::load(low, from);
+        registers::load(high, from + 8);
+        registers::store(re.lane.data(), __builtin_shuffle(low, high, Places{0, 2, 4, 6, 8, 10, 12, 14}));
+        registers::store(im.lane.data(), __builtin_shuffle(low, high, Places{1, 3, 5, 7, 9, 11, 13, 15}));
+    } else {
+        for (std::size_t k = 0; k < Lanes::size; ++k) {
+            re.lane[k] = from[2 * k];
+            im.lane[k] = from[2 * k + 1];
+        }
     }
 }
-/// psi_j *= scale exp(i factor (V_j + density |psi_j|^2)), eight together; real and imaginary parts in turn.
+template <bool hasEight>
+inline void writeParts(const Lanes& re, const Lanes& im, double* to) {
+    if constexpr (hasEight) {
+        registers::Eight x, y;
+        registers::load(x, re.lane.data());
+        registers::load(y, im.lane.data());
+        registers::store(to, __builtin_shuffle(x, y, Places{0, 8, 1, 9, 2, 10, 3, 11}));
+        registers::store(to + 8, __builtin_shuffle(x, y, Places{4, 12, 5, 13, 6, 14, 7, 15}));
+    } else {
+        for (std::size_t k = 0; k < Lanes::size; ++k) {
+            to[2 * k] = re.lane[k];
+            to[2 * k + 1] = im.lane[k];
+        }
+    }
+}
+/// psi_j *= scale exp(i factor (V_j + density |psi_j|^2)) of eight.
+template <bool hasEight>
+inline void kickEight(const double* V, double density, double factor, double scale, double* psi) {
+    Lanes x, y;
+    readParts<hasEight>(psi, x, y);
+    const Lanes angle = Lanes(factor) * (Lanes::load(V) + Lanes(density) * (x * x + y * y)),
+                c = Lanes(scale) * cos(angle), s = Lanes(scale) * sin(angle);
+    writeParts<hasEight>(x * c - y * s, x * s + y * c, psi);
+}
+/// The same of n.
+template <bool hasEight>
 inline void kickLanes(const double* V, double density, double factor, double scale, std::size_t n,
                       double* psi) {
-    // A loop of a known length takes registers at once, one of another length number by number.
-    constexpr std::integral_constant<std::size_t, Lanes::size> all;
-    std::size_t first = 0;
-    for (; first + all <= n; first += all) kickEight(V + first, density, factor, scale, all, psi + 2 * first);
-    if (first < n) kickEight(V + first, density, factor, scale, n - first, psi + 2 * first);
+    constexpr std::size_t all = Lanes::size;
+    const std::size_t rest = n % all, whole = n - rest;
+    for (std::size_t first = 0; first < whole; first += all)
+        kickEight<hasEight>(V + first, density, factor, scale, psi + 2 * first);
+    if (rest == 0) return;
+    std::array<double, all> lastV{};
+    std::array<double, 2 * all> last{};
+    std::copy_n(V + whole, rest, lastV.data());
+    std::copy_n(psi + 2 * whole, 2 * rest, last.data());
+    kickEight<hasEight>(lastV.data(), density, factor, scale, last.data());
+    std::copy_n(last.data(), 2 * rest, psi + 2 * whole);
 }
 
 class WaveSplitting final : public WaveStep {
@@ -134,7 +167,8 @@ private:
     void kick(std::size_t k, double t) {
         if (hasFixedKicks()) return multiply(psi_.data(), *phases_[k]);
         if (shared()->isTimeDependent()) shared()->potentialAt(t, V_.data());
-        static const auto call = ForThisMachine<&kickLanes>::call();
+        static const auto call =
+            ForThisMachine<&kickLanes<true>, &kickLanes<false>, &kickLanes<false>>::call();
         call(V_.data(), density_, -splitting_.stages[k].fraction * dt() / shared()->hbar(), 1.0 / n(),
              psi_.size(), reinterpret_cast<double*>(psi_.data()));
     }
