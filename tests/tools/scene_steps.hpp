@@ -33,6 +33,18 @@ inline std::vector<double> after(const ReadScene& scene, int steps) {
     return state.x;
 }
 
+/// Whether two integrators leave the same bits at each of these steps.
+inline bool areAlike(Integrator& one, Integrator& other, const State& start, double h, int steps) {
+    State a = start, b = start;
+    for (int k = 1; k <= steps; ++k) {
+        const double until = start.t + k * h;
+        if (one.advance(a, until).outcome != Outcome::converged ||
+            other.advance(b, until).outcome != Outcome::converged || a.x != b.x)
+            return false;
+    }
+    return true;
+}
+
 /// The largest difference; huge where one of them is empty.
 inline double apart(const std::vector<double>& a, const std::vector<double>& b) {
     double largest = a.size() == b.size() && !a.empty() ? 0 : 1e300;

@@ -6,7 +6,9 @@
 /// knots).
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -85,19 +87,29 @@ std::span<const NamedSplitting> knotsOf(const Settings& space) {
     if (isOfArcs(space)) return keplerKnots;
     return freeKnots;
 }
-const NamedSplitting& tableOf(const Settings& space) {
+const NamedSplitting& namedIn(const Settings& space) {
     const std::string id = space.text("knots");
     const auto all = knotsOf(space);
     return *std::find_if(all.begin(), all.end(), [&](const NamedSplitting& each) { return id == each.id; });
 }
+/// As it was published. Made once: it is asked for whenever a scheme is made.
+const Splitting& tableOf(const Settings& space) {
+    static const std::map<std::string, Splitting, std::less<>> all = [] {
+        std::map<std::string, Splitting, std::less<>> made;
+        for (const std::span<const NamedSplitting> list :
+             {std::span<const NamedSplitting>(freeKnots), std::span<const NamedSplitting>(keplerKnots)})
+            for (const NamedSplitting& each : list) made.emplace(each.id, each.make());
+        return made;
+    }();
+    return all.find(space.text("knots"))->second;
+}
 const char* firstOf(const Splitting& splitting) { return splitting.stages.front().isKick ? "kick" : "drift"; }
 /// Whether the space asks for the other order of kicks and drifts.
-bool isSwapped(const Settings& space, const Splitting& table) {
-    return space.find("first") && space.text("first") != firstOf(table);
+bool isSwapped(const Settings& space) {
+    return space.find("first") && space.text("first") != firstOf(tableOf(space));
 }
 Splitting splittingOf(const Settings& space) {
-    Splitting table = tableOf(space).make();
-    return isSwapped(space, table) ? swapped(std::move(table)) : table;
+    return isSwapped(space) ? swapped(tableOf(space)) : tableOf(space);
 }
 
 constexpr const char* needed = "a kinetic energy whose motion is known, and a potential";
@@ -155,7 +167,7 @@ SpaceEntry keplerArcs() {
 }
 
 Properties describeFreeMotion(const Discretization& d) {
-    const NamedSplitting& named = tableOf(d.space);
+    const NamedSplitting& named = namedIn(d.space);
     const Splitting splitting = splittingOf(d.space);
     const auto kicks = std::count_if(splitting.stages.begin(), splitting.stages.end(),
                                      [](const SplittingStage& s) { return s.isKick; });
@@ -163,8 +175,7 @@ Properties describeFreeMotion(const Discretization& d) {
     p.claims = {splitting.order, true, true, {"momentum"}};
     p.curveOrder = std::min(splitting.order, 4);  // cubic Hermite interpolation
     p.space = (isOfArcs(d.space) ? "Kepler arcs with " : "free motions with ") + std::to_string(kicks) +
-              " kicks" +
-              (isSwapped(d.space, named.make()) ? std::string(", ") + firstOf(splitting) + " first" : "");
+              " kicks" + (isSwapped(d.space) ? std::string(", ") + firstOf(splitting) + " first" : "");
     p.knownAs = named.knownAs;
     p.shortName = named.shortName;
     p.isExplicit = true;
@@ -229,11 +240,11 @@ std::optional<Problem> problemOf(const Discretization& d, const System& system) 
         return Problem{"/space/mass",
                        "a mass term is for fields; in other systems all of the potential is in the kicks",
                        "leave it out"};
-    if (const Splitting table = tableOf(d.space).make(); table.isNystrom && isSwapped(d.space, table))
+    if (const Splitting& table = tableOf(d.space); table.isNystrom && isSwapped(d.space))
         return Problem{"/space/first",
                        d.space.text("knots") + " has its order only with a " + firstOf(table) + " first",
                        std::string("leave it out, or blanes-moan-s10")};
-    if (!isOfArcs(d.space) && tableOf(d.space).make().isNystrom && isSumOfOthers(system))
+    if (!isOfArcs(d.space) && tableOf(d.space).isNystrom && isSumOfOthers(system))
         return Problem{
             "/space/knots",
             d.space.text("knots") + " has its order for kinetic energies p^2/(2m) with constant masses alone",
