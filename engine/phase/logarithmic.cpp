@@ -69,19 +69,38 @@ void force(const void* model, double, const double* q, double* f) {
     const double perDepth = 1 / depth(m, q);
     for (std::size_t k = 1; k <= d; ++k) f[k] *= perDepth;
 }
+/// Places are at `x`, from where `evaluate` makes the force.
+template <class Evaluate>
+void takeAll(const LogarithmicModel& m, std::span<const KickAndDrift<double>> pairs, bool isForceKnown,
+             double& t, double* x, double* p, double* f, const Evaluate& evaluate) {
+    const std::size_t d = m.H.inverseMasses.size();
+    const double* const w = m.H.inverseMasses.data();
+    for (const KickAndDrift<double>& pair : pairs) {
+        if (!isForceKnown) evaluate();
+        isForceKnown = false;
+        for (std::size_t k = 0; k <= d; ++k) p[k] += pair.kick * f[k];
+        if (pair.drift == 0) continue;
+        const double rate = 1 / forward(m, p);
+        t += pair.drift * rate;
+        for (std::size_t k = 0; k < d; ++k) x[k] += pair.drift * (w[k] * p[1 + k] * rate);
+    }
+}
 void kicksAndDrifts(const void* model, std::span<const KickAndDrift<double>> pairs, const double*,
                     bool isForceKnown, double* q, double* p, double* f) {
     const LogarithmicModel& m = self(model);
-    const std::size_t n = m.H.inverseMasses.size() + 1;
-    for (const KickAndDrift<double>& pair : pairs) {
-        if (!isForceKnown) force(model, 0, q, f);
-        isForceKnown = false;
-        for (std::size_t k = 0; k < n; ++k) p[k] += pair.kick * f[k];
-        if (pair.drift == 0) continue;
-        const double rate = 1 / forward(m, p);
-        q[0] += pair.drift * rate;
-        for (std::size_t k = 1; k < n; ++k) q[k] += pair.drift * (m.H.inverseMasses[k - 1] * p[k] * rate);
-    }
+    const std::size_t d = m.H.inverseMasses.size();
+    if (m.kick.outputs() == 0)
+        return takeAll(m, pairs, isForceKnown, q[0], q + 1, p, f, [&] { force(model, 0, q, f); });
+    // Places stay in the registers of the formula.
+    typed::TapeRoom room(m.kick.registers());
+    double* const r = room.data();
+    for (std::size_t k = 0; k < d; ++k) r[k] = q[1 + k];
+    takeAll(m, pairs, isForceKnown, q[0], r, p, f, [&] {
+        m.kick.run(r);
+        f[0] = 0;
+        for (std::size_t k = 0; k < d; ++k) f[1 + k] = m.kick.output(k, r);
+    });
+    for (std::size_t k = 0; k < d; ++k) q[1 + k] = r[k];
 }
 void gradient(const void* model, double t, const double* q, const double* p, double* g) {
     const int n = self(model).H.dimension + 1;
