@@ -38,11 +38,13 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
         connect(check_, &QCheckBox::toggled, this, [this](bool on) { emit edited(Value(on)); });
     } else if (info.type == FieldType::choice || (info.type == FieldType::integer && !info.choices.empty())) {
         input = choice_ = new ComboBox;
+        if (info.isOptional) choice_->addItem(tr("default"));
         for (const std::string& choice : info.choices) choice_->addItem(QString::fromStdString(choice));
         choice_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         choice_->setMinimumContentsLength(6);
         connect(choice_, &QComboBox::activated, this, [this](int i) {
             const bool isInteger = info_.type == FieldType::integer;
+            if (info_.isOptional && i == 0) return emit edited(Value());
             emit edited(isInteger ? Value(choice_->itemText(i).toInt())
                                   : Value(choice_->itemText(i).toStdString()));
         });
@@ -173,7 +175,10 @@ void ValueEdit::show(const Value& value) {
         spin_->setValue(static_cast<int>(value.asNumber()));
     else if (spin_ && info_.isOptional)
         spin_->setValue(spin_->minimum());
-    if (choice_) choice_->setCurrentText(fieldText(value));
+    if (choice_ && info_.isOptional && value.isNull())
+        choice_->setCurrentIndex(0);
+    else if (choice_)
+        choice_->setCurrentText(fieldText(value));
     if (!text_) return;
     // The state of a field has more values than a line holds, and it would cut them.
     const int count = valuesIn(value);

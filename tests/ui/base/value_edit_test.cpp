@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/base/value_edit.hpp"
 
+#include <QComboBox>
 #include <QLineEdit>
 #include <QSignalSpy>
 #include <QSpinBox>
@@ -71,6 +72,25 @@ private slots:
         QCOMPARE(spin->text(), QStringLiteral("7"));
         info.isOptional = false;
         QCOMPARE(ValueEdit(info).findChild<QSpinBox*>()->minimum(), 2);
+    }
+    void aChoiceThatIsLeftOutIsShownAsSuch() {
+        FieldInfo info = choiceField("first", "first", {"kick", "drift"}, "");
+        info.fallback = nullptr;
+        info.isOptional = true;
+        ValueEdit edit(info);
+        edit.show(Value());
+        auto* const box = edit.findChild<QComboBox*>();
+        QCOMPARE(box->currentText(), QStringLiteral("default"));
+        QSignalSpy edited(&edit, &ValueEdit::edited);
+        edit.show(Value("drift"));
+        QCOMPARE(box->currentText(), QStringLiteral("drift"));
+        QVERIFY(edited.isEmpty());
+        emit box->activated(1);
+        QCOMPARE(edited[0][0].value<Value>().asString(), std::string("kick"));
+        emit box->activated(0);
+        QVERIFY(edited[1][0].value<Value>().isNull());
+        info.isOptional = false;
+        QCOMPARE(ValueEdit(info).findChild<QComboBox*>()->count(), 2);
     }
     void aNumberThatIsLeftOutIsShownAsSuch() {
         FieldInfo info = numberField("mass", "mass term", "", 0, "");
