@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -125,6 +124,9 @@ private:
     }
     /// What is in registers of the machine at each call and read after it.
     void findAlive() {
+        std::vector<std::uint32_t> placed;
+        for (std::uint32_t k = 0; k < place_.size(); ++k)
+            if (place_[k] >= 0) placed.push_back(k);
         std::vector<bool> isAlive(tape_.registers(), false);
         for (const std::uint32_t k : tape_.outputPlaces()) isAlive[k] = true;
         for (std::size_t at = code_.size(); at-- > 0;) {
@@ -133,8 +135,8 @@ private:
             if (i.op == Op::sinCos) isAlive[i.c] = false;
             if (!isArithmetic(i.op)) {
                 std::vector<std::uint32_t>& alive = alive_.emplace_back();
-                for (std::uint32_t k = 0; k < place_.size(); ++k)
-                    if (place_[k] >= 0 && isAlive[k]) alive.push_back(k);
+                for (const std::uint32_t k : placed)
+                    if (isAlive[k]) alive.push_back(k);
             }
             forOperands(i, [&](std::uint32_t k) { isAlive[k] = true; });
         }

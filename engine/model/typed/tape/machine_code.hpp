@@ -6,8 +6,8 @@
 ///
 /// Code is made when a tape is carried out for the second time, which costs as much as some hundred runs
 /// save; not every tape that is made for a model is carried out more than once. There is none on other
-/// processors than x86-64 with AVX (of eight nodes, AVX-512), where memory may not be made executable, and of
-/// tapes that are very long: these are carried out as before.
+/// processors than x86-64 with AVX (of eight nodes, and of tapes in groups, AVX-512), where memory may not be
+/// made executable, and of tapes that are very long: these are carried out as before.
 #pragma once
 
 #include <atomic>
