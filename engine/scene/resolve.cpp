@@ -76,7 +76,13 @@ std::unique_ptr<Integrator> makeFor(const ResolvedScheme& scheme, const System& 
         const MonitoredProblem problem = monitoredProblem(system, scheme.spec.monitor, start, step);
         ResolvedScheme inner = scheme;
         inner.spec.monitor = {};
-        return makeMonitored(problem, makeFor(inner, problem.system, step, problem.start), step);
+        try {
+            return makeMonitored(problem, makeFor(inner, problem.system, step, problem.start), step);
+        } catch (const InvalidScene& e) {
+            std::vector<Problem> problems = e.problems();
+            for (Problem& p : problems) p.message = "with the energy of the monitor: " + p.message;
+            throw InvalidScene(std::move(problems));
+        }
     }
     std::unique_ptr<Integrator> integrator;
     if (scheme.isTested()) {
