@@ -28,7 +28,7 @@ protected:
                               : domain.potential.meanCurvatures()),
           grid_(std::move(grid)),
           points_(grid_.points()),
-          stride_((points_ + Lanes::size - 1) / Lanes::size * Lanes::size) {
+          stride_(inWholeLanes(points_)) {
         for (std::size_t c = 0; c < components_; ++c)
             for (const double each : grid_.gradients())
                 linear_.push_back(domain.stiffness[c] * each + shifts_[c]);

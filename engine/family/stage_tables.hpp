@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal {
@@ -33,7 +34,7 @@ public:
     std::size_t stages() const { return stages_; }
     /// Numbers in a row.
     std::size_t width() const { return width_; }
-    static std::size_t widthOf(std::size_t numbers) { return (numbers + 7) / 8 * 8; }
+    static std::size_t widthOf(std::size_t numbers) { return inWholeLanes(numbers); }
 
     /// Y = a u + b v + B G.
     void toStages(const double* U, const double* V, const double* G, double* Y) const;

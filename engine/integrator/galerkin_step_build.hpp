@@ -11,6 +11,7 @@
 
 #include "engine/core/algebra/dense.hpp"
 #include "engine/core/algebra/exact_sum.hpp"
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/integrator/galerkin_step_solve.hpp"
 #include "engine/integrator/galerkin_step_sums.hpp"
@@ -36,7 +37,7 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         widest = std::max(widest, m(k));
     }
     isVectorised_ = std::is_same_v<T, double> && n() >= 16 && tables_.front().frequency != T(0);
-    rows_ = isVectorised_ ? (n() + 7) / 8 * 8 : n();
+    rows_ = isVectorised_ ? inWholeLanes(n()) : n();
     if (isVectorised_) sums_ = nodeSums();
     const auto padded = [&](const auto& column) {
         Flat all = Flat::Constant(rows(), column(n() - 1));
@@ -44,7 +45,7 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         return all;
     };
     for (const Table<T>& t : tables_) {
-        const int own = t.unknowns(), height = isVectorised_ ? (own + 7) / 8 * 8 : own;
+        const int own = t.unknowns(), height = isVectorised_ ? inWholeLanes(own) : own;
         Functions f;
         f.value = f.slope = Square::Zero(rows(), own);
         for (int a = 0; a < own; ++a) f.value.col(a) = padded(t.value.col(a));

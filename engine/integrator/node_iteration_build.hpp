@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/algebra/dense.hpp"
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/core/work.hpp"
 #include "engine/integrator/node_iteration.hpp"
 #include "engine/solve/fixed_point_policy.hpp"
@@ -66,7 +67,7 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
       d_(mechanics.dimension),
       n_(table.nodes()),
       m_(table.unknowns()),
-      stride_((n_ + 7) / 8 * 8),
+      stride_(inWholeLanes(n_)),
       h_(h),
       tolerance_(tolerance),
       isExact_(tolerance <= std::numeric_limits<T>::epsilon()) {

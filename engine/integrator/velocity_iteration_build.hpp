@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "engine/core/algebra/dense.hpp"
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/integrator/node_iteration_build.hpp"
 #include "engine/integrator/velocity_iteration.hpp"
 
@@ -28,7 +29,7 @@ VelocityIteration<T>::VelocityIteration(const Mechanics<T>& mechanics, const Tab
     : mechanics_(mechanics),
       d_(mechanics.dimension),
       n_(table.nodes()),
-      stride_((n_ + 7) / 8 * 8),
+      stride_(inWholeLanes(n_)),
       tolerance_(tolerance),
       isExact_(tolerance <= std::numeric_limits<T>::epsilon()),
       toY_(dense::inverse<T>(table.derivative)) {

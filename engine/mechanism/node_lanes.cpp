@@ -6,14 +6,6 @@
 #include "engine/core/algebra/lanes.hpp"
 
 namespace extremal {
-namespace {
-
-Eigen::Index inWholeLanes(Eigen::Index count) {
-    constexpr auto size = static_cast<Eigen::Index>(Lanes::size);
-    return (count + size - 1) / size * size;
-}
-
-}  // namespace
 
 NodeLanes::NodeLanes(const std::vector<double>& places, const MechanismCurve::Samples& at, int dimension)
     : nodes_(static_cast<int>(places.size())), d_(dimension) {

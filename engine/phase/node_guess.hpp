@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/core/algebra/small_product.hpp"
 #include "engine/core/text/archive.hpp"
 
@@ -28,7 +29,7 @@ public:
 
     explicit NodeGuess(const Eigen::MatrixXd& ahead, int dimension) : sums_(nodeSums()) {
         const Eigen::Index nodes = ahead.rows();
-        ahead_ = Eigen::MatrixXd::Zero((nodes + 7) / 8 * 8, nodes);
+        ahead_ = Eigen::MatrixXd::Zero(inWholeLanes(nodes), nodes);
         ahead_.topRows(nodes) = ahead;
         first_.K = first_.F = older_.K = older_.F = Nodes::Zero(nodes, dimension);
         differences_.fill(first_);

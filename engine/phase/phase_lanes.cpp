@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/core/algebra/registers.hpp"
 #include "engine/solve/correction_size.hpp"
 
@@ -89,7 +90,7 @@ double entry(const Eigen::VectorXd& v, Eigen::Index i) { return v(std::min(i, v.
 
 PhaseLanes::PhaseLanes(const PhaseMechanics& mechanics, const SharedCell& cell)
     : H_(mechanics), cell_(cell), sums_(nodeSums()) {
-    const Eigen::Index rows = (cell->nodes() + 7) / 8 * 8, columns = 2 * d(), eights = (columns + 7) / 8 * 8;
+    const Eigen::Index rows = inWholeLanes(cell->nodes()), columns = 2 * d(), eights = inWholeLanes(columns);
     A_ = B_ = Matrix::Zero(rows, cell->nodes());
     fromStart_.resize(rows);
     for (Eigen::Index i = 0; i < rows; ++i) fromStart_(i) = entry(cell->fromStart, i);

@@ -9,17 +9,9 @@
 #include "engine/core/algebra/lanes.hpp"
 
 namespace extremal {
-namespace {
-
-int inWholeLanesOf(int count) {
-    constexpr auto size = static_cast<int>(Lanes::size);
-    return (count + size - 1) / size * size;
-}
-
-}  // namespace
 
 NullSpaceLu::NullSpaceLu(int m, int d, int n) : m_(m), d_(d), n_(n), lu_(m * (d - n)) {
-    const int rows = inWholeLanesOf(m * d);
+    const int rows = inWholeLanes(m * d);
     matrix_ = Matrix::Zero(rows, m * d);
     ofFree_ = Matrix::Zero(rows, m * (d - n));
     const auto nodes = static_cast<std::size_t>(m + 1);

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "engine/core/algebra/instruction_set.hpp"
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/core/algebra/registers.hpp"
 
 namespace extremal {
@@ -15,9 +16,6 @@ namespace {
 using namespace registers;
 
 constexpr int mostHeight = 8;  ///< registers of a column
-constexpr std::size_t inWholeRegisters(std::size_t size) {
-    return (size + Lanes::size - 1) / Lanes::size * Lanes::size;
-}
 
 template <class To, class From>
 inline To as(const From& from) {
@@ -207,7 +205,7 @@ const Kernels& kernels() {
 
 SmallLu<double>::SmallLu(int size)
     : size_(static_cast<std::size_t>(size)),
-      a_(inWholeRegisters(size_) * size_ / Lanes::size),
+      a_(inWholeLanes(size_) * size_ / Lanes::size),
       work_(size_ <= kernels().most ? a_.size() : 0),
       inverse_(size_),
       row_(size_) {}
@@ -217,14 +215,14 @@ void SmallLu<double>::clear() { std::fill(a_.begin(), a_.end(), Lanes{}); }
 Outcome SmallLu<double>::factorise() {
     if (work_.empty()) return lu::factorise(matrix(), size_, inverse_.data(), row_.data());
     Outcome outcome = Outcome::converged;
-    kernels().factorise({matrix(), work_.data()->lane.data(), size_, inWholeRegisters(size_), inverse_.data(),
+    kernels().factorise({matrix(), work_.data()->lane.data(), size_, inWholeLanes(size_), inverse_.data(),
                          row_.data(), &outcome});
     return outcome;
 }
 
 void SmallLu<double>::solve(double* x) const {
     if (work_.empty()) return lu::solve(matrix(), size_, inverse_.data(), row_.data(), x);
-    kernels().solve({matrix(), size_, inWholeRegisters(size_), inverse_.data(), row_.data(), x});
+    kernels().solve({matrix(), size_, inWholeLanes(size_), inverse_.data(), row_.data(), x});
 }
 
 void SmallLu<double>::solveTransposed(double* x) const {
@@ -232,12 +230,12 @@ void SmallLu<double>::solveTransposed(double* x) const {
     std::array<double, mostHeight * Lanes::size> right;
     std::copy_n(x, size_, right.begin());
     for (std::size_t k = 0; k < size_; ++k) {
-        const double* const column = matrix() + k * inWholeRegisters(size_);
+        const double* const column = matrix() + k * inWholeLanes(size_);
         for (std::size_t i = 0; i < k; ++i) right[k] -= column[i] * right[i];
         right[k] *= inverse_[k];
     }
     for (std::size_t k = size_; k-- > 0;) {
-        const double* const column = matrix() + k * inWholeRegisters(size_);
+        const double* const column = matrix() + k * inWholeLanes(size_);
         for (std::size_t i = k + 1; i < size_; ++i) right[k] -= column[i] * right[i];
     }
     for (std::size_t k = 0; k < size_; ++k) x[row_[k]] = right[k];

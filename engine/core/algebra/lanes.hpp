@@ -55,6 +55,13 @@ struct alignas(64) Lanes {
     }
 };
 
+/// A count with what fills the last eight.
+template <class Count>
+constexpr Count inWholeLanes(Count count) {
+    constexpr auto size = static_cast<Count>(Lanes::size);
+    return (count + size - 1) / size * size;
+}
+
 inline Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(a) += b; }
 inline Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a) -= b; }
 inline Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a) *= b; }

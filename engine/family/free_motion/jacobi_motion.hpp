@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "engine/core/algebra/lanes.hpp"
 #include "engine/family/free_motion/kepler_arc.hpp"
 #include "engine/family/free_motion/kepler_arc_kernel.hpp"
 #include "engine/model/parts/held_bodies.hpp"
@@ -101,7 +102,7 @@ public:
     T fall(std::size_t k, std::size_t i) const { return -(pull(i) * x_[k][i]); }
 
 private:
-    std::size_t padded() const { return (size_ + 7) / 8 * 8; }
+    std::size_t padded() const { return inWholeLanes(size_); }
     /// mu / |r_i|^3.
     T pull(std::size_t i) const {
         using std::sqrt;
