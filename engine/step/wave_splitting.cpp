@@ -17,7 +17,7 @@
 namespace extremal {
 namespace {
 
-using Places = long long __attribute__((vector_size(64)));
+using Places = registers::Mask<registers::Eight>;
 
 /// Eight real and eight imaginary parts, which take turns in memory. hasEight: the machine has registers of
 /// eight numbers; the compiler makes no shuffles of these loops.

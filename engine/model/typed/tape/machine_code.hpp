@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Tapes as instructions of the processor, made while the program runs: intermediate values stay in registers
 /// of the machine, and nothing is decided on the way. The bits are those of the instructions one by one:
-/// arithmetic is the same in the same order, and for all that is no arithmetic (sin, exp, tables) the code
-/// calls what carries out that instruction.
+/// arithmetic is the same in the same order, and for everything else (sin, exp, tables) the code calls what
+/// carries out that instruction.
 ///
 /// Code is made when a tape is carried out for the second time, which costs as much as some hundred runs
-/// save; not every tape that is made for a model is carried out more than once. There is none on other
-/// processors than x86-64 with AVX (of eight nodes, and of tapes in groups, AVX-512), where memory may not be
-/// made executable, and of tapes that are very long: these are carried out as before.
+/// save; not every tape that is made for a model is carried out more than once. It needs an x86-64 with AVX
+/// (for eight nodes, and for tapes in groups, with AVX-512) and memory that may be made executable. Without
+/// these, and where they are very long, tapes are carried out instruction by instruction.
 #pragma once
 
 #include <atomic>
@@ -43,7 +43,7 @@ private:
 
     bool isEight_;
     std::atomic<Call> call_{nullptr};
-    std::atomic<int> left_{1};  ///< runs before it is made; negative: no more, there is none
+    std::atomic<int> left_{1};  ///< runs before it is made; negative: it is not made any more
     std::mutex making_;
     std::unique_ptr<Made> made_;
 };

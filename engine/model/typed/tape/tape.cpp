@@ -118,6 +118,8 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     }
     tape.registers_ = placing.end();
     for (const std::uint32_t v : line.outputs) tape.outputs_.push_back(placing.of(v));
+    tape.hasInputAsOutput_ = std::any_of(tape.outputs_.begin(), tape.outputs_.end(),
+                                         [&](std::uint32_t output) { return output < tape.inputs_; });
     tape.findStretches();
     tape.one_ = std::make_shared<MachineCode>(false);
     tape.eight_ = std::make_shared<MachineCode>(true);

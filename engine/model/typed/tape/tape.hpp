@@ -6,8 +6,9 @@
 /// common part is computed once; integer powers are products, x^(n/2) products of one square root, and sin
 /// and cos of one angle a single call. Of long formulas with many parts alike, such as the sums over a chain,
 /// instructions are in groups that are carried out as loops (tape_groups.hpp), and registers are given out so
-/// that what a loop reads and writes stands side by side where it can. Evaluation allocates nothing and
-/// changes nothing but the caller's registers, so any number of threads may share a tape.
+/// that what a loop reads and writes stands side by side where it can. But for that code, evaluation
+/// allocates nothing and changes nothing but the caller's registers, so any number of threads may share a
+/// tape.
 #pragma once
 
 #include <cstdint>
@@ -101,6 +102,8 @@ public:
     struct Stretch {
         std::uint32_t end, afterRegister;  ///< afterRegister: one past that of the last
     };
+    /// Whether one of the outputs is an input itself.
+    bool hasInputAsOutput() const { return hasInputAsOutput_; }
     /// Empty where most of them are short.
     std::span<const Stretch> stretches() const { return stretches_; }
     /// Outputs first, first + 1, ... of those that were computed last.
@@ -117,6 +120,7 @@ private:
     std::vector<std::uint32_t> outputs_;
     std::shared_ptr<MachineCode> one_, eight_;  ///< of all copies
     std::vector<Stretch> stretches_;
+    bool hasInputAsOutput_ = false;
 };
 
 }  // namespace extremal::typed

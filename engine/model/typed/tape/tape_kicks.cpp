@@ -73,13 +73,11 @@ void kicksAndDriftsBy(const Tape* tape, std::span<const KickAndDrift<double>> pa
     const std::size_t d = tape->outputs();
     TapeRoom room(tape->registers());
     double* const r = room.data();
-    detail::fillConstants(*tape, r);
     std::copy_n(q, d, r);
     const MachineCode::Call code = tape->forOne();
+    if (!code) detail::fillConstants(*tape, r);
     // A force that is a coordinate itself is read before that moves.
-    bool isCoordinate = false;
-    for (std::size_t i = 0; i < d; ++i)
-        isCoordinate = isCoordinate || &tape->output(i, r) < r + tape->inputs();
+    const bool isCoordinate = tape->hasInputAsOutput();
     for (const KickAndDrift<double>& pair : pairs) {
         const Motion<Pack> motion{pair, perMass, r, p};
         if (!isForceKnown && code)
