@@ -21,7 +21,7 @@ namespace {
 struct LogarithmicModel {
     PhaseMechanics H;
     double c;
-    typed::Tape kick;  ///< -V'/(c - V); without outputs where V is no formula
+    typed::Tape kick;  ///< -V'/(c - V); without outputs where the formula of V is not known
     long long id;
 };
 struct LogarithmicRoom {

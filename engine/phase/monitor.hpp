@@ -51,6 +51,7 @@ public:
 
 /// Typed ones first, then "auto", "action", "arclength" and "logarithmic", with their keys.
 const std::vector<CatalogItem>& monitorCatalog();
+/// Whether steps that follow it have the energy of logarithmic.hpp.
 bool isLogarithmic(const Settings& monitor);
 
 /// The names that a typed monitor may use besides those of its own definitions: coordinates and momenta.

@@ -22,6 +22,9 @@
 namespace extremal {
 namespace {
 
+/// In front of what a scheme has against the system that follows a monitor (phase/monitored.hpp).
+constexpr const char* withMonitor = "with the energy of the monitor: ";
+
 /// Why the family or the baseline of a scheme does not take the system; empty if it does. What a single space
 /// has against the system is said by its maker.
 std::string refusalOf(const ResolvedScheme& scheme, const System& system) {
@@ -33,9 +36,7 @@ std::string refusalOf(const ResolvedScheme& scheme, const System& system) {
         ResolvedScheme inner = scheme;
         inner.spec.monitor = {};
         const std::string refusal = refusalOf(inner, monitoredKind(system, scheme.spec.monitor));
-        return refusal.empty() || !refusalOf(inner, system).empty()
-                   ? refusal
-                   : "steps that follow it have the energy g (H - H_0): " + refusal;
+        return refusal.empty() || !refusalOf(inner, system).empty() ? refusal : withMonitor + refusal;
     }
     if (scheme.isTested() && !canKeepInvariants(system))
         return "invariants are kept of motions that a Lagrangian, a Hamiltonian, a one-form or a bracket "
@@ -80,7 +81,7 @@ std::unique_ptr<Integrator> makeFor(const ResolvedScheme& scheme, const System& 
             return makeMonitored(problem, makeFor(inner, problem.system, step, problem.start), step);
         } catch (const InvalidScene& e) {
             std::vector<Problem> problems = e.problems();
-            for (Problem& p : problems) p.message = "with the energy of the monitor: " + p.message;
+            for (Problem& p : problems) p.message = withMonitor + p.message;
             throw InvalidScene(std::move(problems));
         }
     }
