@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,15 +23,20 @@ inline std::unique_ptr<Integrator> integratorOf(const ReadScene& scene) {
     return r.schemes[0].make(*r.system, r.schemes[0].spec.step.value, r.initial);
 }
 
-/// The state after `steps` steps; empty where one fails.
-inline std::vector<double> after(const ReadScene& scene, int steps) {
+/// The state after `steps` steps, of one length or along a monitor; nothing where one fails.
+inline std::optional<State> stateAfter(const ReadScene& scene, int steps) {
     const auto integrator = integratorOf(scene);
     const double h = scene.resolved->schemes[0].spec.step.value;
     State state = scene.resolved->initial;
     integrator->begin(state);
     for (int k = 1; k <= steps; ++k)
         if (integrator->advance(state, k * h).outcome != Outcome::converged) return {};
-    return state.x;
+    return state;
+}
+/// Its x; empty where a step fails.
+inline std::vector<double> after(const ReadScene& scene, int steps) {
+    const auto state = stateAfter(scene, steps);
+    return state ? state->x : std::vector<double>();
 }
 
 /// Whether two integrators leave the same bits at each of these steps.

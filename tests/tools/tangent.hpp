@@ -91,6 +91,15 @@ inline std::optional<Eigen::MatrixXd> tangentMap(Integrator& integrator) {
     return M;
 }
 
+/// max |M^T J M - J| for the canonical form of (q, p).
+inline double canonicalDefect(const Eigen::MatrixXd& M) {
+    const Eigen::Index d = M.rows() / 2;
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * d, 2 * d);
+    J.topRightCorner(d, d).setIdentity();
+    J.bottomLeftCorner(d, d) = -Eigen::MatrixXd::Identity(d, d);
+    return (M.transpose() * J * M - J).cwiseAbs().maxCoeff();
+}
+
 /// The largest entry of M^T - (what the step makes of the unit vectors as covectors).
 inline double transposedDefect(Integrator& integrator, const Eigen::MatrixXd& M) {
     Eigen::MatrixXd T = Eigen::MatrixXd::Identity(M.rows(), M.cols());

@@ -74,11 +74,7 @@ double defect(Integrator& integrator, State s, int steps) {
         if (advance(integrator, s).outcome != Outcome::converged) qFatal("a step failed");
         const auto M = tangentMap(integrator);
         if (!M) qFatal("no tangent map");
-        const Eigen::Index d = M->rows() / 2;
-        Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * d, 2 * d);
-        J.topRightCorner(d, d).setIdentity();
-        J.bottomLeftCorner(d, d) = -Eigen::MatrixXd::Identity(d, d);
-        worst = std::max(worst, (M->transpose() * J * *M - J).cwiseAbs().maxCoeff());
+        worst = std::max(worst, canonicalDefect(*M));
     }
     return worst;
 }

@@ -56,15 +56,6 @@ std::string knots(const std::string& id, const std::string& first = "") {
     return quoted("'space': {'type': 'free-motion', 'knots': '" + id +
                   (first.empty() ? "'}" : "', 'first': '" + first + "'}"));
 }
-/// After so many steps: their number, not the time, is the same for all.
-State after(const ReadScene& read, int steps, double end) {
-    const auto integrator = tests::integratorOf(read);
-    State s = read.resolved->initial;
-    integrator->begin(s);
-    for (int k = 0; k < steps; ++k)
-        if (integrator->advance(s, end).outcome != Outcome::converged) qFatal("a step failed");
-    return s;
-}
 
 }  // namespace
 
@@ -107,7 +98,8 @@ class LogarithmicTest : public QObject {
     }
     void otherOrbitsAreNotExact() {
         for (const std::string& scheme : {knots("strang", "kick"), knots("blanes-moan-s10", "drift")}) {
-            const State s = after(sceneOf(kepler, 0.6, following(scheme), 0.05, 1e5), 100, 1e5);
+            const State s =
+                tests::stateAfter(sceneOf(kepler, 0.6, following(scheme), 0.05, 1e5), 100).value();
             const double energy = (s.x[2] * s.x[2] + s.x[3] * s.x[3]) / 2 - 1 / std::hypot(s.x[0], s.x[1]);
             qInfo("%.1e", energy + 0.5);
             QVERIFY(std::abs(energy + 0.5) > 1e-11);
@@ -142,7 +134,7 @@ class LogarithmicTest : public QObject {
         for (const int n : {100, 200}) {
             const double h = step * 100 / n;
             const ReadScene read = sceneOf(oblate, 0.5, following(scheme.toStdString()), h, 1e5);
-            const State s = after(read, n, 1e5);
+            const State s = tests::stateAfter(read, n).value();
             const Vector exact = tests::after(
                 sceneOf(oblate, 0.5, quoted("'scheme': 'galerkin-gauss-6'"), s.t / 2000, 1e5), 2000);
             errors.push_back(tests::apart({s.x[0], s.x[1]}, {exact[0], exact[1]}));
@@ -158,9 +150,9 @@ class LogarithmicTest : public QObject {
     void modelsMakeTheSameSteps() {
         for (const char* more : {"", ", 'max': 0.3"}) {
             const std::string scheme = following(knots("blanes-moan-s10"), more);
-            const State one = after(sceneOf(kepler, 0.7, scheme, 0.02, 1e5), 200, 1e5);
+            const State one = tests::stateAfter(sceneOf(kepler, 0.7, scheme, 0.02, 1e5), 200).value();
             for (const std::string& model : {typedKepler, keplersHamiltonian}) {
-                const State other = after(sceneOf(model, 0.7, scheme, 0.02, 1e5), 200, 1e5);
+                const State other = tests::stateAfter(sceneOf(model, 0.7, scheme, 0.02, 1e5), 200).value();
                 QVERIFY(std::abs(one.t - other.t) < 1e-12);
                 QVERIFY(tests::apart(one.x, other.x) < 1e-11);
             }
@@ -231,10 +223,7 @@ class LogarithmicTest : public QObject {
             QCOMPARE(integrator->advance(s, 10).outcome, Outcome::converged);
             const auto M = tangentMap(*integrator);
             QVERIFY(M && M->rows() == 6);
-            Eigen::MatrixXd J = Eigen::MatrixXd::Zero(6, 6);
-            J.topRightCorner(3, 3).setIdentity();
-            J.bottomLeftCorner(3, 3) = -Eigen::MatrixXd::Identity(3, 3);
-            const double off = (M->transpose() * J * *M - J).cwiseAbs().maxCoeff();
+            const double off = canonicalDefect(*M);
             QVERIFY2(off < 1e-13 * std::pow(M->cwiseAbs().maxCoeff(), 2), qPrintable(QString::number(off)));
         }
     }

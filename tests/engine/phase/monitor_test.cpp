@@ -73,14 +73,10 @@ End runOf(double e, int degree, double step, const QByteArray& monitor, double e
 }
 /// The time that so many steps take, all of them equal in tau.
 double timeOf(double e, int degree, double first, int steps, const QByteArray& monitor) {
-    const ReadScene scene =
-        readScene(keplerScene(e, gaussScheme(degree, first, monitor), span).toStdString());
-    const auto integrator = tests::integratorOf(scene);
-    State s = scene.resolved->initial;
-    integrator->begin(s);
-    for (int k = 0; k < steps; ++k)
-        if (integrator->advance(s, span).outcome != Outcome::converged) qFatal("a step failed");
-    return s.t;
+    return tests::stateAfter(
+               readScene(keplerScene(e, gaussScheme(degree, first, monitor), span).toStdString()), steps)
+        .value()
+        .t;
 }
 /// With so many steps, the last of which ends at the end of the run: with few steps an encounter the error
 /// is not a smooth function of their number, and one step more or less is another figure.
@@ -246,11 +242,7 @@ class MonitorTest : public QObject {
             QCOMPARE(integrator->advance(s, 10).outcome, Outcome::converged);
             const auto M = tangentMap(*integrator);
             QVERIFY(M);
-            const Eigen::Index d = M->rows() / 2;
-            Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * d, 2 * d);
-            J.topRightCorner(d, d).setIdentity();
-            J.bottomLeftCorner(d, d) = -Eigen::MatrixXd::Identity(d, d);
-            const double off = (M->transpose() * J * *M - J).cwiseAbs().maxCoeff();
+            const double off = canonicalDefect(*M);
             QVERIFY2(off < 1e-13 * std::pow(M->cwiseAbs().maxCoeff(), 2), qPrintable(QString::number(off)));
         }
     }
