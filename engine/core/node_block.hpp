@@ -54,13 +54,20 @@ public:
             base_ = state.x.data();
             only_ = &state;
         }
-        t_[size_] = state.t;
-        node_[size_] = state.node;
-        reports_[size_] = report;
         const double* x = state.x.data();
         double* to = x_.data() + size_ * stride_;
         for (std::size_t k = 0; k < stride_; ++k)
             to[k] = x[k];  // a few numbers: cheaper than a call of memmove
+        push(state.t, state.node, report);
+    }
+
+    /// Where the state columns of the nodes to come belong, `width` apart, of a block that holds copies; each
+    /// is then pushed without them.
+    double* next() { return x_.data() + size_ * width_; }
+    void push(double t, long long node, const StepReport& report) {
+        t_[size_] = t;
+        node_[size_] = node;
+        reports_[size_] = report;
         ++size_;
     }
 

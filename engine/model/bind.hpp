@@ -102,20 +102,26 @@ struct Calls {
     /// Number by number: in vectors of two, which the compiler would make of a few coordinates, these wait
     /// for each other, and a kick takes a fifth longer.
     [[gnu::optimize("no-tree-slp-vectorize"), gnu::flatten]] static void kicksAndDrifts(
-        const void* p, std::span<const KickAndDrift<T>> pairs, const T* perMass, bool isForceKnown, T* q,
-        T* momentum, T* f) requires SeparableModel<M> {
+        const void* p, const KicksAndDrifts<T>& steps, T* q, T* momentum, T* f) requires SeparableModel<M> {
         std::array<T, n> Q, P, F, W;  // which the compiler may keep in registers
         std::copy_n(q, n, Q.begin());
         std::copy_n(momentum, n, P.begin());
         std::copy_n(f, n, F.begin());
-        std::copy_n(perMass, n, W.begin());
-        for (const KickAndDrift<T>& pair : pairs) {
+        std::copy_n(steps.perMass, n, W.begin());
+        const auto drift = [&](const T& s) {
+            for (std::size_t i = 0; i < n; ++i) Q[i] += (s * W[i]) * P[i];
+        };
+        const auto kickAndDrift = [&](const KickAndDrift<T>& by, bool isForceKnown) {
             if (!isForceKnown) force(p, T(0), Q.data(), F.data());
-            isForceKnown = false;
-            for (std::size_t i = 0; i < n; ++i) P[i] += pair.kick * F[i];
-            if (pair.drift == T(0)) continue;
-            for (std::size_t i = 0; i < n; ++i) Q[i] += (pair.drift * W[i]) * P[i];
-        }
+            for (std::size_t i = 0; i < n; ++i) P[i] += by.kick * F[i];
+            drift(by.drift);
+        };
+        steps.take(drift, kickAndDrift, [&](long long step) {
+            if (!steps.nodes) return;
+            T* const node = steps.nodes + static_cast<std::size_t>(step) * steps.stride;
+            std::copy_n(Q.begin(), n, node);
+            std::copy_n(P.begin(), n, node + n);
+        });
         std::copy_n(Q.begin(), n, q);
         std::copy_n(P.begin(), n, momentum);
         std::copy_n(F.begin(), n, f);

@@ -27,10 +27,42 @@ struct LagrangianTerm {
     bool hasVelocities = false;
 };
 
-/// A kick, p += kick f(q), and the drift behind it, q_i += drift p_i / m_i. In units of time.
+/// A kick, p += kick f(q), and the drift behind it, q += drift v(p). In units of time.
 template <class T>
 struct KickAndDrift {
     T kick, drift;
+};
+
+/// Steps of kicks and drifts in turn: each is a drift over `firstDrift`, and then the pairs.
+template <class T>
+struct KicksAndDrifts {
+    std::span<const KickAndDrift<T>> pairs;
+    T firstDrift{};              ///< 0 where steps begin with a kick
+    const T* perMass = nullptr;  ///< 1 / m_i, where the system is separable
+    long long steps = 1;
+    bool isForceKnown = false;  ///< at the start
+    /// Where q and p after each step are written, `stride` numbers after those of the step before; null where
+    /// only the end counts.
+    T* nodes = nullptr;
+    std::size_t stride = 0;
+
+    /// Whether the first kick of a step is at the q of the last one of the step before.
+    bool keepsForce() const { return firstDrift == T{} && !pairs.empty() && pairs.back().drift == T{}; }
+    /// `drift(s)` first, then `pair(kick and drift, whether the force is known)`, and `end(number)` after
+    /// each step.
+    template <class Drift, class Pair, class End>
+    [[gnu::always_inline]] void take(Drift&& drift, Pair&& pair, End&& end) const {
+        bool isKnown = isForceKnown && firstDrift == T{};
+        for (long long step = 0; step < steps; ++step) {
+            if (firstDrift != T{}) drift(firstDrift);
+            for (const KickAndDrift<T>& each : pairs) {
+                pair(each, isKnown);
+                isKnown = false;
+            }
+            isKnown = keepsForce();
+            end(step);
+        }
+    }
 };
 
 template <class T>
@@ -67,11 +99,10 @@ struct Mechanics {
     void (*gradients)(const void*, const T* t, int nodes, const T* q, const T* v, T* gradients) = nullptr;
     void (*hessians)(const void*, const T* t, int nodes, const T* q, const T* v, T* hessians) = nullptr;
     const T* masses = nullptr;  ///< length d
-    /// Kicks and drifts in turn by one call, where the system offers it (null else) and its potential does
-    /// not know the time: a call per force costs more than the force of few coordinates. `perMass`: 1 / m_i.
-    /// `force` is that of the last kick, and before it that of q where `isForceKnown`.
-    void (*kicksAndDrifts)(const void*, std::span<const KickAndDrift<T>>, const T* perMass, bool isForceKnown,
-                           T* q, T* p, T* force) = nullptr;
+    /// Steps of kicks and drifts by one call, where the system offers it (null else) and its potential does
+    /// not know the time: a call per force costs more than the force of few coordinates. `force` is that of
+    /// the last kick, and before it that of q where it is known.
+    void (*kicksAndDrifts)(const void*, const KicksAndDrifts<T>&, T* q, T* p, T* force) = nullptr;
     bool isTimeDependent = false;
     /// L as a sum of terms, where the system says it in parts; empty: kinetic and potential energy, where L
     /// is separable (lagrangian_terms.hpp), else a whole.

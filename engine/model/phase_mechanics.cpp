@@ -101,10 +101,10 @@ void force(const void* model, const double& t, const double* q, double* f) {
     std::transform(g.data(), g.data() + of.dimension, f, [](double slope) { return -slope; });
 }
 
-void kicksAndDrifts(const void* model, std::span<const KickAndDrift<double>> pairs, const double* perMass,
-                    bool isForceKnown, double* q, double* p, double* force) {
+void kicksAndDrifts(const void* model, const KicksAndDrifts<double>& steps, double* q, double* p,
+                    double* force) {
     const PhaseMechanics& of = self(model);
-    of.kicksAndDrifts(of.model.get(), pairs, perMass, isForceKnown, q, p, force);
+    of.kicksAndDrifts(of.model.get(), steps, q, p, force);
 }
 
 }  // namespace

@@ -36,10 +36,9 @@ struct PhaseMechanics {
     /// costs less than the gradient.
     void (*velocity)(const void*, double t, const double* p, double* v) = nullptr;
     void (*force)(const void*, double t, const double* q, double* f) = nullptr;
-    /// Where the system offers it (null else) and does not know the time: as Mechanics::kicksAndDrifts, with
-    /// drifts by `velocity`, and by `perMass` where H is separable.
-    void (*kicksAndDrifts)(const void*, std::span<const KickAndDrift<double>>, const double* perMass,
-                           bool isForceKnown, double* q, double* p, double* force) = nullptr;
+    /// Where the system offers it (null else) and does not know the time: as Mechanics::kicksAndDrifts.
+    void (*kicksAndDrifts)(const void*, const KicksAndDrifts<double>&, double* q, double* p,
+                           double* force) = nullptr;
 
     /// H = 1/2 sum_i w_i p_i^2 + V(t, q) with constant w_i: `inverseMasses` are these, else empty.
     std::vector<double> inverseMasses = {};

@@ -7,12 +7,13 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/core/own_buffers.hpp"
 #include "engine/model/typed/graph.hpp"
 #include "engine/model/typed/tape/tape.hpp"
+#include "engine/model/typed/tape/tape_kicks.hpp"
 #include "engine/model/typed/tape/tape_registers.hpp"
 
 namespace extremal {
@@ -21,17 +22,20 @@ namespace {
 struct LogarithmicModel {
     PhaseMechanics H;
     double c;
-    typed::Tape kick;  ///< -V'/(c - V); without outputs where the formula of V is not known
+    typed::Tape kick, drift;  ///< -V'/(c - V) and K_p; without outputs where V has no formula
+    typed::KickTape pair;     ///< of both
     long long id;
 };
 struct LogarithmicRoom {
     explicit LogarithmicRoom(const LogarithmicModel& of)
         : rest(Eigen::VectorXd::Zero(of.H.dimension)),
           slope(Eigen::VectorXd::Zero(2 * of.H.dimension)),
-          hessian(Eigen::MatrixXd::Zero(slope.size(), slope.size())) {}
+          hessian(Eigen::MatrixXd::Zero(slope.size(), slope.size())),
+          rates(Eigen::VectorXd::Zero(rest.size() + 1)) {}
     Eigen::VectorXd rest;  ///< no momenta: H is V
     Eigen::VectorXd slope;
     Eigen::MatrixXd hessian;
+    Eigen::VectorXd rates;
 };
 
 const LogarithmicModel& self(const void* model) { return *static_cast<const LogarithmicModel*>(model); }
@@ -55,6 +59,9 @@ double energy(const void* model, double, const double* q, const double* p) {
 }
 void velocity(const void* model, double, const double* p, double* v) {
     const LogarithmicModel& m = self(model);
+    const auto n = static_cast<std::size_t>(m.H.dimension + 1);
+    if (m.drift.outputs() > 0)
+        return typed::TapeRegisters(m.drift, [&](double* r) { std::copy_n(p, n, r + n); }).copy(0, n, v);
     v[0] = 1 / forward(m, p);
     for (std::size_t k = 0; k < m.H.inverseMasses.size(); ++k)
         v[1 + k] = m.H.inverseMasses[k] * p[1 + k] * v[0];
@@ -62,45 +69,34 @@ void velocity(const void* model, double, const double* p, double* v) {
 void force(const void* model, double, const double* q, double* f) {
     const LogarithmicModel& m = self(model);
     const auto d = static_cast<std::size_t>(m.H.dimension);
-    f[0] = 0;
     if (m.kick.outputs() > 0)
-        return typed::TapeRegisters(m.kick, [&](double* r) { std::copy_n(q + 1, d, r); }).copy(0, d, f + 1);
+        return typed::TapeRegisters(m.kick, [&](double* r) { std::copy_n(q, d + 1, r); }).copy(0, d + 1, f);
+    f[0] = 0;
     m.H.force(m.H.model.get(), q[0], q + 1, f + 1);
     const double perDepth = 1 / depth(m, q);
     for (std::size_t k = 1; k <= d; ++k) f[k] *= perDepth;
 }
-/// Places are at `x`, from where `evaluate` makes the force.
-template <class Evaluate>
-void takeAll(const LogarithmicModel& m, std::span<const KickAndDrift<double>> pairs, bool isForceKnown,
-             double& t, double* x, double* p, double* f, const Evaluate& evaluate) {
-    const std::size_t d = m.H.inverseMasses.size();
-    const double* const w = m.H.inverseMasses.data();
-    for (const KickAndDrift<double>& pair : pairs) {
-        if (!isForceKnown) evaluate();
-        isForceKnown = false;
-        for (std::size_t k = 0; k <= d; ++k) p[k] += pair.kick * f[k];
-        if (pair.drift == 0) continue;
-        const double rate = 1 / forward(m, p);
-        t += pair.drift * rate;
-        for (std::size_t k = 0; k < d; ++k) x[k] += pair.drift * (w[k] * p[1 + k] * rate);
-    }
-}
-void kicksAndDrifts(const void* model, std::span<const KickAndDrift<double>> pairs, const double*,
-                    bool isForceKnown, double* q, double* p, double* f) {
+void drift(const void* model, double s, double* q, const double* p) {
     const LogarithmicModel& m = self(model);
-    const std::size_t d = m.H.inverseMasses.size();
-    if (m.kick.outputs() == 0)
-        return takeAll(m, pairs, isForceKnown, q[0], q + 1, p, f, [&] { force(model, 0, q, f); });
-    // Places stay in the registers of the formula.
-    typed::TapeRoom room(m.kick.registers());
-    double* const r = room.data();
-    for (std::size_t k = 0; k < d; ++k) r[k] = q[1 + k];
-    takeAll(m, pairs, isForceKnown, q[0], r, p, f, [&] {
-        m.kick.run(r);
-        f[0] = 0;
-        for (std::size_t k = 0; k < d; ++k) f[1 + k] = m.kick.output(k, r);
-    });
-    for (std::size_t k = 0; k < d; ++k) q[1 + k] = r[k];
+    Eigen::VectorXd& v = roomOf(m).rates;
+    velocity(model, 0, p, v.data());
+    for (Eigen::Index k = 0; k < v.size(); ++k) q[k] += s * v(k);
+}
+void kicksAndDrifts(const void* model, const KicksAndDrifts<double>& steps, double* q, double* p, double* f) {
+    const LogarithmicModel& m = self(model);
+    if (m.kick.outputs() > 0) return m.pair.take(steps, model, drift, q, p, f);
+    const int n = m.H.dimension + 1;
+    steps.take([&](double s) { drift(model, s, q, p); },
+               [&](const KickAndDrift<double>& by, bool isForceKnown) {
+                   if (!isForceKnown) force(model, 0, q, f);
+                   for (int k = 0; k < n; ++k) p[k] += by.kick * f[k];
+                   drift(model, by.drift, q, p);
+               },
+               [&](long long step) {
+                   if (!steps.nodes) return;
+                   double* const node = steps.nodes + static_cast<std::size_t>(step) * steps.stride;
+                   std::copy_n(p, n, std::copy_n(q, n, node));
+               });
 }
 void gradient(const void* model, double t, const double* q, const double* p, double* g) {
     const int n = self(model).H.dimension + 1;
@@ -130,20 +126,31 @@ void hessian(const void* model, double, const double* q, const double* p, double
     K.block(d + 2, d + 2, d, d).noalias() -= own.slope.tail(d) * own.slope.tail(d).transpose();
 }
 
-/// -V'/(c - V) as formulas in q.
-typed::Tape kickOf(const EnergyFormula& formula, int d, double c) {
+/// K_p and -K_q = -V'/(c - V) as formulas in (t, q; p_t, p).
+void addFormulas(LogarithmicModel& m, const EnergyFormula& formula) {
+    const int n = m.H.dimension + 1;
     typed::Graph graph;
-    std::vector<int> places;
-    for (int k = 0; k < d; ++k) places.push_back(graph.symbol(k));
+    std::vector<int> places, kicks{graph.number(0)};
+    for (int k = 1; k < n; ++k) places.push_back(graph.symbol(k));
     std::vector<int> variables = places;
-    variables.resize(static_cast<std::size_t>(2 * d), graph.number(0));
+    variables.resize(static_cast<std::size_t>(2 * (n - 1)), graph.number(0));
     const auto V = formula.addTo(graph, variables);
-    if (!V) return {};
-    const int depth = graph.sum(c, {{V->value, -1}});
-    std::vector<int> roots;
+    if (!V) return;
+    const int depth = graph.sum(m.c, {{V->value, -1}});
     for (std::size_t k = 0; k < places.size(); ++k)
-        roots.push_back(graph.scaled(graph.product({{V->gradient[k]}, {depth, -1}}), -1));
-    return typed::Tape::of(graph, roots, d);
+        kicks.push_back(graph.scaled(graph.product({{V->gradient[k]}, {depth, -1}}), -1));
+    std::vector<typed::Graph::Operand> energies{{graph.symbol(n), 1}};
+    for (int k = 1; k < n; ++k)
+        energies.push_back({graph.product({{graph.symbol(n + k), 2}}),
+                            m.H.inverseMasses[static_cast<std::size_t>(k - 1)] / 2});
+    const int rate = graph.product({{graph.sum(m.c, energies), -1}});
+    std::vector<int> velocities{rate};
+    for (int k = 1; k < n; ++k)
+        velocities.push_back(graph.scaled(graph.product({{graph.symbol(n + k)}, {rate}}),
+                                          m.H.inverseMasses[static_cast<std::size_t>(k - 1)]));
+    m.kick = typed::Tape::of(graph, kicks, n);
+    m.drift = typed::Tape::of(graph, velocities, 2 * n);
+    m.pair = typed::KickTape::ofSum(graph, kicks, velocities);
 }
 
 }  // namespace
@@ -156,9 +163,10 @@ PhaseMechanics logarithmicMotion(const PhaseMechanics& H, const EnergyFormula* f
     K.hessian = hessian;
     K.velocity = velocity;
     K.force = force;
+    auto model = std::make_shared<LogarithmicModel>(LogarithmicModel{H, c, {}, {}, {}, nextModelId()});
+    if (formula) addFormulas(*model, *formula);
     K.kicksAndDrifts = kicksAndDrifts;
-    K.model = std::make_shared<const LogarithmicModel>(
-        LogarithmicModel{H, c, formula ? kickOf(*formula, H.dimension, c) : typed::Tape(), nextModelId()});
+    K.model = std::move(model);
     return K;
 }
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "engine/core/algebra/add_scaled.hpp"
-#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/corrections.hpp"
 #include "engine/integrator/many_states.hpp"
 #include "engine/integrator/shared_force.hpp"
@@ -38,11 +37,6 @@ void multiply(const Eigen::MatrixXd& jacobian, bool isKick, bool isOwn, bool isI
 }
 
 constexpr int many = TakesManyStates::together;
-
-/// q += s p / m.
-void driftAll(double* q, double s, const double* perMass, const double* p, int size) {
-    for (int i = 0; i < size; ++i) q[i] += (s * perMass[i]) * p[i];
-}
 
 template <int D>
 class Partitioned final : public FlowMethod<D>, public SharesForce, public TakesManyStates {
@@ -81,28 +75,29 @@ public:
         forceTime_ = before.forceTime_;
     }
 
-    /// Sums A(p) + B(q): the same maps on local copies, without a call per step.
+    /// Sums A(p) + B(q) whose system takes many steps by one call.
     StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count, const Clock& clock) override {
         count = std::min(count, nodes.capacity() - nodes.size());
-        if (!this->mechanics_.isSum() || this->mechanics_.isTimeDependent || count < 2 ||
-            nodes.measuresQuantities())
+        const auto& m = this->mechanics_;
+        if (!m.kicksAndDrifts || m.isTimeDependent || count < 2 || nodes.measuresQuantities())
             return Base::advanceBlock(state, nodes, count, clock);
         const auto d = static_cast<std::size_t>(this->d());
+        KicksAndDrifts<double> steps = stepsFrom(state.x.data());
+        steps.steps = static_cast<long long>(count) - 1;
+        steps.nodes = nodes.next();
+        steps.stride = nodes.width();
         StepReport report;
         report.step = this->h();
-        Vector q = typename Base::View(state.x.data(), this->d()),
-               p = typename Base::View(state.x.data() + d, this->d());
-        bool isForceFresh = forceAt_ == q;  // else the cost would depend on where blocks begin
-        for (std::size_t i = 0; i + 1 < count; ++i) {
-            report.cost.evaluations = 0;
-            kickAndDrift(state.t, q, p, isForceFresh, report);
-            if (report.outcome != Outcome::converged) return report;
-            state.t = clock.at(++state.node);
-            std::copy_n(q.data(), d, state.x.data());
-            std::copy_n(p.data(), d, state.x.data() + d);
-            nodes.push(state, report);
+        m.kicksAndDrifts(m.model.get(), steps, state.x.data(), state.x.data() + d, force_.data());
+        bool isForceFresh = steps.isForceKnown;
+        for (long long i = 0; i < steps.steps; ++i) {
+            report.cost.evaluations = evaluations(isForceFresh);
+            isForceFresh = steps.keepsForce();
+            ++state.node;
+            nodes.push(clock.at(state.node), state.node, report);
         }
-        if (isForceFresh) forceAt_ = q;
+        state.t = clock.at(state.node);
+        if (isForceFresh) std::copy_n(state.x.data(), d, forceAt_.data());
         // The last one on the common path, which leaves the dense output behind.
         return Base::advanceBlock(state, nodes, 1, clock);
     }
@@ -111,17 +106,19 @@ public:
         const auto& m = this->mechanics_;
         if (!m.isSeparable || m.isTimeDependent || !m.forces || !hasForcesOf(x)) return false;
         const std::size_t half = static_cast<std::size_t>(this->d()) * many;
-        bool isForceFresh = true;
-        for (long long step = 0; step < steps; ++step)
-            takePairs(
-                isForceFresh,
-                [&] { m.forces(m.model.get(), manyTimes_.data(), many, x, manyForces_.data()); },
-                [&](double s) { addScaled(x + half, s, manyForces_.data(), half); },
-                [&](double s) {
-                    for (std::size_t k = 0; k < half; k += many)
-                        addScaled(x + k, s * inverseMass_(static_cast<Eigen::Index>(k / many)), x + half + k,
-                                  many);
-                });
+        KicksAndDrifts<double> all;
+        all.pairs = pairs_;
+        all.firstDrift = firstDrift_;
+        all.steps = steps;
+        all.isForceKnown = true;
+        takeEach(
+            all, [&] { m.forces(m.model.get(), manyTimes_.data(), many, x, manyForces_.data()); },
+            [&](double s) { addScaled(x + half, s, manyForces_.data(), half); },
+            [&](double s) {
+                for (std::size_t k = 0; k < half; k += many)
+                    addScaled(x + k, s * inverseMass_(static_cast<Eigen::Index>(k / many)), x + half + k,
+                              many);
+            });
         return true;
     }
 
@@ -174,10 +171,10 @@ private:
     bool stepInPlace(double, double* q, double* p) override {
         const auto& m = this->mechanics_;
         if (!m.kicksAndDrifts || m.isTimeDependent) return false;
-        const std::size_t size = static_cast<std::size_t>(this->d()) * sizeof(double);
-        bool isForceFresh = std::memcmp(forceAt_.data(), q, size) == 0;
-        takeAllAtOnce(q, p, isForceFresh, this->report_);
-        if (isForceFresh) std::memcpy(forceAt_.data(), q, size);
+        const KicksAndDrifts<double> steps = stepsFrom(q);
+        m.kicksAndDrifts(m.model.get(), steps, q, p, force_.data());
+        this->report_.cost.evaluations += evaluations(steps.isForceKnown);
+        if (steps.keepsForce()) std::copy_n(q, this->d(), forceAt_.data());
         return true;
     }
     void step(double t) override {
@@ -185,64 +182,53 @@ private:
             takeStages(t, [](auto&&...) { return true; });
             return;
         }
-        bool isForceFresh = forceAt_ == this->q1_;
-        kickAndDrift(t, this->q1_, this->p1_, isForceFresh, this->report_);
-        if (isForceFresh) forceAt_ = this->q1_;
-    }
-    /// The stages of a sum A(p) + B(q). `isForceFresh`: whether force_ is that of q, before and after.
-    void kickAndDrift(double t, Vector& q, Vector& p, bool& isForceFresh, StepReport& report) {
         const auto& m = this->mechanics_;
-        const auto drift = [&](double s) { this->drift(t, s, q.data(), p.data(), report); };
-        if (!m.kicksAndDrifts) {
-            takePairs(
-                isForceFresh,
-                [&] {
-                    m.force(m.model.get(), t, q.data(), force_.data());
-                    ++report.cost.evaluations;
-                },
-                [&](double s) {
-                    if constexpr (D == Eigen::Dynamic)
-                        addScaled(p.data(), s, force_.data(), static_cast<std::size_t>(this->d()));
-                    else
-                        p += s * force_;
-                },
-                drift);
-            return;
-        }
-        takeAllAtOnce(q.data(), p.data(), isForceFresh, report);
+        KicksAndDrifts<double> one;
+        one.pairs = pairs_;
+        one.firstDrift = firstDrift_;
+        one.isForceKnown = forceAt_ == this->q1_;
+        takeEach(
+            one,
+            [&] {
+                m.force(m.model.get(), t, this->q1_.data(), force_.data());
+                ++this->report_.cost.evaluations;
+            },
+            [&](double s) {
+                if constexpr (D == Eigen::Dynamic)
+                    addScaled(this->p1_.data(), s, force_.data(), static_cast<std::size_t>(this->d()));
+                else
+                    this->p1_ += s * force_;
+            },
+            [&](double s) { drift(t, s, this->q1_.data(), this->p1_.data(), this->report_); });
+        if (one.keepsForce()) forceAt_ = this->q1_;
     }
-    /// The same by one call of the system.
-    void takeAllAtOnce(double* q, double* p, bool& isForceFresh, StepReport& report) {
-        const auto& m = this->mechanics_;
+    /// A step from q by one call of the system, with the force of the last kick where that was at q.
+    KicksAndDrifts<double> stepsFrom(const double* q) {
         const double h = this->h();
         if (h != timesOf_) {
             times_ = pairs_;
             for (KickAndDrift<double>& pair : times_) pair = {pair.kick * h, pair.drift * h};
             timesOf_ = h;
         }
-        if (firstDrift_ != 0) {
-            drift(this->startTime_, firstDrift_ * h, q, p, report);
-            isForceFresh = false;
-        }
-        if (times_.empty()) return;
-        m.kicksAndDrifts(m.model.get(), times_, inverseMass_.data(), isForceFresh, q, p, force_.data());
-        report.cost.evaluations += static_cast<int>(times_.size()) - isForceFresh;
-        isForceFresh = times_.back().drift == 0;
+        KicksAndDrifts<double> one;
+        one.pairs = times_;
+        one.firstDrift = firstDrift_ * h;
+        one.perMass = inverseMass_.data();
+        const std::size_t size = static_cast<std::size_t>(this->d()) * sizeof(double);
+        one.isForceKnown = firstDrift_ == 0 && std::memcmp(forceAt_.data(), q, size) == 0;
+        return one;
     }
-    /// The kicks and drifts of a step, each by its time. The last kick and the first one of the next step use
-    /// the same force.
+    int evaluations(bool isForceKnown) const { return static_cast<int>(pairs_.size()) - isForceKnown; }
+    /// The kicks and drifts of steps, each by its time.
     template <class Evaluate, class Kick, class Drift>
-    void takePairs(bool& isForceFresh, Evaluate&& evaluate, Kick&& kick, Drift&& drift) {
-        if (firstDrift_ != 0) {
-            drift(firstDrift_ * this->h());
-            isForceFresh = false;
-        }
-        for (const KickAndDrift<double>& pair : pairs_) {
-            if (!isForceFresh) evaluate();
-            kick(pair.kick * this->h());
-            isForceFresh = pair.drift == 0;
-            if (!isForceFresh) drift(pair.drift * this->h());
-        }
+    void takeEach(const KicksAndDrifts<double>& steps, Evaluate&& evaluate, Kick&& kick, Drift&& drift) {
+        steps.take([&](double s) { drift(s * this->h()); },
+                   [&](const KickAndDrift<double>& pair, bool isForceKnown) {
+                       if (!isForceKnown) evaluate();
+                       kick(pair.kick * this->h());
+                       drift(pair.drift * this->h());
+                   },
+                   [](long long) {});
     }
     /// `besides(isKick, isImplicit, t, s)` before each explicit stage, and after each implicit one: where the
     /// state is that of its derivatives. Its false ends the step.
@@ -306,7 +292,7 @@ private:
             if (!m.velocity(m.model.get(), t, q, p, dq_.data())) report.outcome = Outcome::singular;
             Q += s * dq_;
         } else if constexpr (D == Eigen::Dynamic) {
-            ForThisMachine<&driftAll>::call()(q, s, inverseMass_.data(), p, this->d());
+            addScaledProducts(q, s, inverseMass_.data(), p, static_cast<std::size_t>(this->d()));
         } else {
             Q += (s * inverseMass_).cwiseProduct(Eigen::Map<const Vector>(p, this->d()));
         }

@@ -30,6 +30,7 @@ struct Model {
     bool isDiagonal = false;                               ///< L_vv
     Tape value, gradient, force, jet, hessians, legendre;  ///< hessians: the outputs of `places` alone
     std::vector<double> masses;                            ///< separable
+    KickTape kicks;                                        ///< separable, and the time is not known
     /// Its constant entries in place; empty where there are many coordinates.
     std::vector<double> hessian;
     struct Constant {
@@ -89,9 +90,9 @@ void force(const Model& m, double t, const double* q, const double* v, double* f
 void forceAlone(const void* p, const double& t, const double* q, double* f) {
     force(self(p), t, q, nullptr, f);
 }
-void separableKicks(const void* p, std::span<const KickAndDrift<double>> pairs, const double* perMass,
-                    bool isForceKnown, double* q, double* momentum, double* f) {
-    kicksAndDrifts(self(p).force, pairs, perMass, isForceKnown, q, momentum, f);
+void separableKicks(const void* p, const KicksAndDrifts<double>& steps, double* q, double* momentum,
+                    double* f) {
+    self(p).kicks.take(steps, q, momentum, f);
 }
 
 /// Eight nodes at a time, in the instruction set of this machine: outputs of a tape at q, v and t, output k
@@ -327,7 +328,11 @@ public:
         m.isTimeDependent = n_.graph.dependsOn({n_.value}, [&](int s) { return s == formula_.time(); });
         if (findMasses()) {
             m.isSeparable = true;
-            m.kicksAndDrifts = separableKicks;
+            if (!m.isTimeDependent) {
+                model_->kicks = KickTape::ofSeparable(
+                    n_.graph, std::span(n_.gradient).first(model_->masses.size()), model_->masses);
+                m.kicksAndDrifts = separableKicks;
+            }
             m.forces = NodeTapes::forces();
             m.masses = model_->masses.data();
             Over<separableVelocity>::set(m);

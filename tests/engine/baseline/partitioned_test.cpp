@@ -33,9 +33,13 @@ class PartitionedTest : public QObject {
         Mechanics<double> slow = own;
         slow.kicksAndDrifts = nullptr;
         const State start{0, 0, std::move(from)};
-        for (const auto& table : {strang, srkn14a, srkn19b}) {
-            const auto a = makePartitioned(own, 0.01, partitionedStages(table(), true)),
-                       b = makePartitioned(slow, 0.01, partitionedStages(table(), true));
+        const std::vector<PartitionedStage> driftFirst{{HalfMap::driftExplicit, 0.3},
+                                                       {HalfMap::kickExplicit, 0.6},
+                                                       {HalfMap::driftExplicit, 0.7},
+                                                       {HalfMap::kickExplicit, 0.4}};
+        for (const auto& stages : {partitionedStages(strang(), true), partitionedStages(srkn14a(), true),
+                                   partitionedStages(srkn19b(), true), driftFirst}) {
+            const auto a = makePartitioned(own, 0.01, stages), b = makePartitioned(slow, 0.01, stages);
             State x = start, y = start;
             for (int step = 0; step < 20; ++step) {
                 // Another step in between: durations of kicks follow it.
@@ -46,6 +50,18 @@ class PartitionedTest : public QObject {
                 QVERIFY(x.x == y.x);
             }
             QVERIFY(laws::distance(x.x, start.x, 0, start.x.size()) > 0.01);
+            // Many steps by one call.
+            NodeBlock nodes(x.x.size(), 7);
+            const Clock clock{x.t - 20 * 0.01, 0.01};
+            QCOMPARE(a->advanceBlock(x, nodes, 9, clock).outcome, Outcome::converged);
+            QCOMPARE(nodes.size(), std::size_t{7});
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                const StepReport other = b->advance(y, clock.at(y.node + 1));
+                QVERIFY(std::equal(y.x.begin(), y.x.end(), nodes.x(i)));
+                QVERIFY(nodes.t(i) == y.t && nodes.node(i) == y.node);
+                QCOMPARE(nodes.report(i).cost.evaluations, other.cost.evaluations);
+            }
+            QVERIFY(x.x == y.x);
         }
     }
     Slopes orders(const std::vector<PartitionedStage>& stages) const {

@@ -26,6 +26,7 @@ struct PhaseModel {
     std::size_t d = 0;
     Tape value, gradient, hessian;
     Tape velocity, force;  ///< H_p and -H_q of a sum A(t, p) + B(t, q)
+    KickTape kicks;        ///< of a sum that does not know the time
     struct Place {
         std::size_t output, at, mirrored;  ///< output of the tape -> two entries of the Hessian
     };
@@ -63,9 +64,17 @@ void forceAt(const void* model, double t, const double* q, double* f) {
     const PhaseModel& m = modelOf(model);
     PhaseRegisters(m, m.force, t, q, q).copy(0, m.d, f);
 }
-void separableKicks(const void* model, std::span<const KickAndDrift<double>> pairs, const double* perMass,
-                    bool isForceKnown, double* q, double* p, double* force) {
-    kicksAndDrifts(modelOf(model).force, pairs, perMass, isForceKnown, q, p, force);
+void separableKicks(const void* model, const KicksAndDrifts<double>& steps, double* q, double* p,
+                    double* force) {
+    modelOf(model).kicks.take(steps, q, p, force);
+}
+void kicksOfSum(const void* model, const KicksAndDrifts<double>& steps, double* q, double* p, double* force) {
+    constexpr auto drift = [](const void* of, double s, double* x, const double* momenta) {
+        const PhaseModel& m = modelOf(of);
+        const PhaseRegisters v(m, m.velocity, 0, momenta, momenta);
+        for (std::size_t k = 0; k < m.d; ++k) x[k] += s * v[k];
+    };
+    modelOf(model).kicks.take(steps, model, drift, q, p, force);
 }
 void hessianAt(const void* model, double t, const double* q, const double* p, double* hessian) {
     const PhaseModel& m = modelOf(model);
@@ -170,7 +179,7 @@ public:
             m.force = forceAt;
             m.velocity = velocityAt;
             if (m.isSeparable()) m.forces = ForThisMachine<&forceLanes>::call();
-            if (m.isSeparable()) m.kicksAndDrifts = separableKicks;
+            if (!m.isTimeDependent) addKicks(m, *model, forces);
         }
         m.model = model;
         for (int i = 0; i < d_; ++i)
@@ -179,6 +188,16 @@ public:
     }
 
 private:
+    void addKicks(PhaseMechanics& m, PhaseModel& model, const std::vector<int>& forces) const {
+        m.kicksAndDrifts = m.isSeparable() ? separableKicks : kicksOfSum;
+        if (!m.isSeparable()) {
+            model.kicks = KickTape::ofSum(graph_, forces, std::span(gradient_).subspan(model.d));
+            return;
+        }
+        std::vector<double> masses;
+        for (const double w : m.inverseMasses) masses.push_back(1 / w);
+        model.kicks = KickTape::ofSeparable(graph_, forces, masses);
+    }
     Tape tape(const std::vector<int>& roots) const { return Tape::of(graph_, roots, formula_.time() + 1); }
     int second(int i, int j) const { return hessian_[static_cast<std::size_t>(i * (i + 1) / 2 + j)]; }
 

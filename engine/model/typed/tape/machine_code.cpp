@@ -11,6 +11,7 @@
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/model/typed/tape/tape.hpp"
 #include "engine/model/typed/tape/tape_line.hpp"
+#include "engine/model/typed/tape/tape_parts.hpp"
 #include "engine/model/typed/tape/tape_run.hpp"
 
 #if defined(__x86_64__) && defined(EXTREMAL_HAS_XBYAK)
@@ -44,8 +45,7 @@ public:
           tape_(tape),
           isEight_(isEight),
           isWide_(isEight),
-          code_(tape.code()),
-          groups_(isEight ? std::span<const TapeGroup>() : tape.groups()),
+          does_(tape, isEight ? 0 : mostInLoop),
           firstMade_(tape.inputs() + tape.constants().size()),
           numbersAt_(tape.constants().begin(), tape.constants().end()) {
         numbersAt_.push_back(1);
@@ -55,8 +55,8 @@ public:
     }
 
     MachineCode::Call write() {
-        const bool hasCalls =
-            std::any_of(code_.begin(), code_.end(), [](const Instruction& i) { return !isArithmetic(i.op); });
+        const bool hasCalls = std::any_of(does_.code.begin(), does_.code.end(),
+                                          [](const Instruction& i) { return !isArithmetic(i.op); });
         if (hasCalls) {
             push(rbx);
             push(r12);
@@ -66,11 +66,15 @@ public:
         r_ = hasCalls ? rbx : rdi;
         numbers_ = hasCalls ? r12 : rsi;
         mov(numbers_, reinterpret_cast<std::size_t>(numbersAt_.data()));
-        if (groups_.empty())
-            for (const Instruction& i : code_) carryOut(i);
+        if (!hasLoops())
+            for (const Instruction& i : does_.code) carryOut(i);
         else
-            carryOutGroups();
-        for (const std::uint32_t output : tape_.outputPlaces()) keep(output);
+            carryOutParts();
+        for (std::uint32_t i = 0; i < does_.outputs.size(); ++i)
+            if (tape_.goesOn())
+                copy(does_.outputs[i], i);
+            else
+                keep(does_.outputs[i]);
         leaveWideRegisters();
         if (hasCalls) {
             add(rsp, 8);
@@ -87,6 +91,7 @@ private:
     /// Of the machine: loops use these and what is above; single values of tapes that have loops, the others.
     static constexpr int firstOfLoops = 16;
     static constexpr std::size_t mostInLoop = 12;
+    static constexpr std::uint32_t lanes = 8;
 
     /// An operand: in a register of the machine, or in memory, there perhaps one number for all lanes.
     struct Source {
@@ -97,28 +102,30 @@ private:
 
     static int machineRegisters() { return instructionSet() == InstructionSet::avx512 ? 32 : 16; }
     static int scratch(int k) { return machineRegisters() - 1 - k; }
-    static bool isInLoop(const TapeGroup& g) { return g.isLoop && g.isSideBySide(); }
+    bool hasLoops() const { return !does_.parts.empty(); }
     bool isConstant(std::uint32_t k) const { return k >= tape_.inputs() && k < firstMade_; }
 
     void choosePlaces() {
         std::vector<std::size_t> uses(tape_.registers(), 0);
-        for (const Instruction& i : code_) {
+        for (const Instruction& i : does_.code) {
             forOperands(i, [&](std::uint32_t k) { ++uses[k]; });
             ++uses[i.to];
         }
         // Loops read and write memory.
-        for (const TapeGroup& g : groups_)
-            for (std::uint32_t n = 0; isInLoop(g) && n < g.count; ++n) {
-                forOperands(code_[g.first + n], [&](std::uint32_t k) { uses[k] = 0; });
-                uses[code_[g.first + n].to] = 0;
-            }
+        for (const TapePart& part : does_.parts)
+            for (std::size_t m = 0; part.isLoop && m < part.members.size(); ++m)
+                for (std::uint32_t n = 0; n < part.members[m].group.count; ++n) {
+                    const Instruction& i = does_.code[part.members[m].group.first + n];
+                    forOperands(i, [&](std::uint32_t k) { uses[k] = 0; });
+                    uses[i.to] = 0;
+                }
         std::vector<std::uint32_t> order;
         for (auto k = static_cast<std::uint32_t>(firstMade_); k < uses.size(); ++k)
             if (uses[k] > 0) order.push_back(k);
         std::stable_sort(order.begin(), order.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return uses[a] > uses[b]; });
         place_.assign(uses.size(), -1);
-        const int most = groups_.empty() ? machineRegisters() - 2 : firstOfLoops;
+        const int most = hasLoops() ? firstOfLoops : machineRegisters() - 2;
         for (std::size_t n = 0; n < order.size() && static_cast<int>(n) < most; ++n)
             place_[order[n]] = static_cast<int>(n);
     }
@@ -128,9 +135,9 @@ private:
         for (std::uint32_t k = 0; k < place_.size(); ++k)
             if (place_[k] >= 0) placed.push_back(k);
         std::vector<bool> isAlive(tape_.registers(), false);
-        for (const std::uint32_t k : tape_.outputPlaces()) isAlive[k] = true;
-        for (std::size_t at = code_.size(); at-- > 0;) {
-            const Instruction& i = code_[at];
+        for (const std::uint32_t k : does_.outputs) isAlive[k] = true;
+        for (std::size_t at = does_.code.size(); at-- > 0;) {
+            const Instruction& i = does_.code[at];
             isAlive[i.to] = false;
             if (i.op == Op::sinCos) isAlive[i.c] = false;
             if (!isArithmetic(i.op)) {
@@ -175,7 +182,7 @@ private:
     }
     /// Where other code would wait for the upper parts of registers.
     void leaveWideRegisters() {
-        if (isEight_ || !groups_.empty()) vzeroupper();
+        if (isEight_ || hasLoops()) vzeroupper();
     }
 
     // Arithmetic.
@@ -266,99 +273,82 @@ private:
         else if (isConstant(k))
             store(slot(k), loaded(sourceOf(k), scratch(0)).getIdx());
     }
+    /// What register `from` of the tape holds to register `to`, in memory.
+    void copy(std::uint32_t from, std::uint32_t to) {
+        if (from != to) store(slot(to), loaded(sourceOf(from), scratch(0)).getIdx());
+    }
 
-    // Groups.
+    // Loops.
 
     /// Constants that stand side by side as operands are read where the tape has them.
     void placeConstants() {
-        const Range constants{static_cast<std::uint32_t>(tape_.inputs()),
-                              static_cast<std::uint32_t>(tape_.constants().size())};
-        bool areRead = false;
-        for (const TapeGroup& g : groups_)
-            if (isInLoop(g))
-                forRanges(g, [&](const Range& read) {
-                    areRead = areRead || (read.count > 1 && read.meets(constants));
-                });
-        for (std::uint32_t k = 0; areRead && k < constants.count; ++k) {
+        const auto first = static_cast<std::uint32_t>(tape_.inputs()),
+                   count = static_cast<std::uint32_t>(tape_.constants().size());
+        if (!does_.hasLoopOver(first, count)) return;
+        for (std::uint32_t k = 0; k < count; ++k) {
             vmovsd(numbered(scratch(0)), qword[number(k).at]);
-            store(slot(constants.first + k), scratch(0));
+            store(slot(first + k), scratch(0));
         }
     }
-    void carryOutGroups() {
+    void carryOutParts() {
         placeConstants();
-        for (std::size_t g = 0; g < groups_.size();) {
-            std::size_t end = g + 1;
-            if (!isInLoop(groups_[g])) {
-                for (const Instruction& i : code_.subspan(groups_[g].first, groups_[g].count)) carryOut(i);
-            } else {
-                while (end < groups_.size() && end - g < mostInLoop &&
-                       canJoin(groups_.subspan(g, end - g), groups_[end]))
-                    ++end;
-                isWide_ = true;
-                writeLoop(groups_.subspan(g, end - g));
-                isWide_ = isEight_;
+        for (const TapePart& part : does_.parts) {
+            isWide_ = part.isLoop || isEight_;
+            if (part.isLoop) {
+                writeLoop(part.members);
+                continue;
             }
-            g = end;
+            for (const auto& [group, isRead] : part.members)
+                for (std::size_t k = 0; k < group.count; ++k) carryOut(does_.code[group.first + k]);
         }
+        isWide_ = isEight_;
     }
-    /// Registers of the tape.
-    struct Range {
-        std::uint32_t first, count;
-        bool meets(const Range& other) const {
-            return first < other.first + other.count && other.first < first + count;
-        }
-    };
-    Range madeBy(const TapeGroup& g) const { return {code_[g.first].to, g.count}; }
-    /// What a group reads, operand by operand.
-    template <class Use>
-    void forRanges(const TapeGroup& g, const Use& use) const {
-        const TapeGroup::Operand kinds[] = {g.a, g.b, g.c};
-        const TapeGroup::Operand* kind = kinds;
-        forOperands(code_[g.first], [&](std::uint32_t k) {
-            use(Range{k, *kind++ == TapeGroup::Operand::single ? 1 : g.count});
-        });
-    }
-    /// Whether a group can be carried out for eight places before the ones in front of it are for the next:
-    /// it reads of these only what is of the same place, and writes nothing that they still read.
-    bool canJoin(std::span<const TapeGroup> before, const TapeGroup& g) const {
-        if (!isInLoop(g) || g.count != before.front().count) return false;
-        const Range own = madeBy(g);
-        bool can = true;
-        for (const TapeGroup& e : before) {
-            const Range other = madeBy(e);
-            const auto isApart = [](const Range& a, const Range& b) {
-                return !a.meets(b) || (a.first == b.first && a.count == b.count);
-            };
-            can = can && !own.meets(other);
-            forRanges(g, [&](const Range& read) { can = can && isApart(read, other); });
-            forRanges(e, [&](const Range& read) { can = can && isApart(read, own); });
-        }
-        return can;
-    }
-    void writeLoop(std::span<const TapeGroup> groups) {
-        constexpr std::uint32_t lanes = 8, mostUnrolled = 16;
-        const std::uint32_t count = groups.front().count, whole = count / lanes;
-        if (whole > mostUnrolled) {
+    using Members = std::span<const TapePart::Member>;
+
+    /// The last places, which are less than a register, are computed with some before them; all is read
+    /// before anything there is stored. What is stored under a mask would be read late.
+    void writeLoop(Members groups) {
+        constexpr std::uint32_t mostUnrolled = 16;
+        const std::uint32_t count = groups.front().group.count, whole = count / lanes;
+        const bool isMasked = count % lanes != 0 && (whole == 0 || 2 * groups.size() > mostInLoop),
+                   isOverlapped = count % lanes != 0 && !isMasked;
+        const std::uint32_t alone = isOverlapped ? whole - 1 : whole;
+        if (alone > mostUnrolled) {
             Xbyak::Label again;
             xor_(eax, eax);
             L(again);
-            writeEight(groups, rax);
+            computeEight(groups, rax, firstOfLoops);
+            storeEight(groups, rax, firstOfLoops);
             add(rax, 8 * lanes);
-            cmp(rax, 8 * lanes * whole);
+            cmp(rax, 8 * lanes * alone);
             jl(again, T_NEAR);
         } else {
-            for (std::uint32_t k = 0; k < whole; ++k) writeEight(groups, Xbyak::RegExp(8 * lanes * k));
+            for (std::uint32_t k = 0; k < alone; ++k) {
+                computeEight(groups, placesFrom(lanes * k), firstOfLoops);
+                storeEight(groups, placesFrom(lanes * k), firstOfLoops);
+            }
         }
-        if (count % lanes == 0) return;
-        mov(eax, (1u << count % lanes) - 1);
-        kmovw(k1, eax);
-        writeEight(groups, Xbyak::RegExp(8 * lanes * whole), true);
+        if (isOverlapped) {
+            const Xbyak::RegExp lastWhole = placesFrom(lanes * alone), last = placesFrom(count - lanes);
+            const int others = firstOfLoops + static_cast<int>(groups.size());
+            computeEight(groups, lastWhole, firstOfLoops);
+            computeEight(groups, last, others);
+            storeEight(groups, lastWhole, firstOfLoops);
+            storeEight(groups, last, others);
+        }
+        if (isMasked) {
+            mov(eax, (1u << count % lanes) - 1);
+            kmovw(k1, eax);
+            computeEight(groups, placesFrom(lanes * whole), firstOfLoops);
+            storeEight(groups, placesFrom(lanes * whole), firstOfLoops, true);
+        }
     }
-    /// Eight places from `offset` on, in bytes; of the last ones those of the mask.
-    void writeEight(std::span<const TapeGroup> groups, const Xbyak::RegExp& offset, bool isMasked = false) {
+    static Xbyak::RegExp placesFrom(std::uint32_t first) { return Xbyak::RegExp(8 * first); }
+    /// Eight places from `offset` on, in bytes: what each group makes is in a register, from `firstPlace` on.
+    void computeEight(Members groups, const Xbyak::RegExp& offset, int firstPlace) {
         for (std::size_t n = 0; n < groups.size(); ++n) {
-            const TapeGroup& g = groups[n];
-            const Instruction& i = code_[g.first];
+            const TapeGroup& g = groups[n].group;
+            const Instruction& i = does_.code[g.first];
             const TapeGroup::Operand kinds[] = {g.a, g.b, g.c};
             Source operands[3];
             std::size_t next = 0;
@@ -370,23 +360,28 @@ private:
                 }
                 operand = {-1, slot(k) + offset, false};
                 for (std::size_t e = 0; e < n; ++e)
-                    if (madeBy(groups[e]).first == k) operand.place = firstOfLoops + static_cast<int>(e);
+                    if (does_.code[groups[e].group.first].to == k)
+                        operand.place = firstPlace + static_cast<int>(e);
             });
-            const int place = firstOfLoops + static_cast<int>(n);
-            compute(i.op, place, operands[0], operands[1], operands[2]);
-            const Xbyak::Address to = zword[slot(i.to) + offset];
-            isMasked ? vmovupd(to | k1, Xbyak::Zmm(place)) : vmovupd(to, Xbyak::Zmm(place));
+            compute(i.op, firstPlace + static_cast<int>(n), operands[0], operands[1], operands[2]);
+        }
+    }
+    void storeEight(Members groups, const Xbyak::RegExp& offset, int firstPlace, bool isMasked = false) {
+        for (const auto& [group, isRead] : groups) {
+            const Xbyak::Zmm from(firstPlace++);
+            if (!isRead) continue;
+            const Xbyak::Address to = zword[slot(does_.code[group.first].to) + offset];
+            isMasked ? vmovupd(to | k1, from) : vmovupd(to, from);
         }
     }
 
     const Tape& tape_;
     bool isEight_;
     bool isWide_;  ///< eight numbers in each register of the machine, here
-    std::span<const Instruction> code_;
-    std::span<const TapeGroup> groups_;  ///< of one number
-    std::size_t firstMade_;              ///< register of the tape
-    std::vector<double> numbersAt_;      ///< constants of the tape, then 1 and -0
-    std::vector<int> place_;             ///< of each register of the tape in the machine; negative: in memory
+    TapeParts does_;
+    std::size_t firstMade_;          ///< register of the tape
+    std::vector<double> numbersAt_;  ///< constants of the tape, then 1 and -0
+    std::vector<int> place_;         ///< of each register of the tape in the machine; negative: in memory
     std::vector<std::vector<std::uint32_t>> alive_;  ///< of the calls to come, the last one first
     Xbyak::Reg64 r_, numbers_;
 };

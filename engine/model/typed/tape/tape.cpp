@@ -84,12 +84,21 @@ private:
 
 Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     Code code(graph);
-    std::vector<std::uint32_t> wanted;
-    for (const int root : roots) wanted.push_back(code.value(root));
-    Line line(code.items(), std::move(wanted));
+    std::vector<std::uint32_t> values;
+    for (const int root : roots) values.push_back(code.value(root));
+    return of(code, std::move(values), static_cast<std::size_t>(inputs));
+}
 
+Tape Tape::goingOn(const Code& code, std::vector<std::uint32_t> values, std::size_t inputs) {
+    Tape tape = of(code, std::move(values), inputs);
+    tape.goesOn_ = true;
+    return tape;
+}
+
+Tape Tape::of(const Code& code, std::vector<std::uint32_t> values, std::size_t inputs) {
+    Line line(code.items(), std::move(values));
     Tape tape;
-    tape.inputs_ = static_cast<std::size_t>(inputs);
+    tape.inputs_ = inputs;
     tape.tables_ = code.tables();
     std::vector<std::uint32_t> place(code.items().size(), Line::none);
     for (std::size_t i = 0; i < code.items().size(); ++i) {
@@ -118,8 +127,6 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     }
     tape.registers_ = placing.end();
     for (const std::uint32_t v : line.outputs) tape.outputs_.push_back(placing.of(v));
-    tape.hasInputAsOutput_ = std::any_of(tape.outputs_.begin(), tape.outputs_.end(),
-                                         [&](std::uint32_t output) { return output < tape.inputs_; });
     tape.findStretches();
     tape.one_ = std::make_shared<MachineCode>(false);
     tape.eight_ = std::make_shared<MachineCode>(true);
@@ -152,8 +159,11 @@ void Tape::copyOutputs(std::size_t first, std::size_t count, const double* r, do
 
 void Tape::run(double* r) const {
     if (const auto code = forOne()) return code(r);
-    if (!groups_.empty()) return runGroups(*this, r);
-    detail::run(*this, r);
+    if (!groups_.empty())
+        runGroups(*this, r);
+    else
+        detail::run(*this, r);
+    if (goesOn_) copyOutputs(0, outputs_.size(), r, r);
 }
 
 }  // namespace extremal::typed

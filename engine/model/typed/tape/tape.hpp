@@ -21,6 +21,8 @@
 
 namespace extremal::typed {
 
+class Code;
+
 enum class Op : std::uint8_t {
     add,               ///< a + b
     subtract,          ///< a - b
@@ -67,6 +69,9 @@ class Tape {
 public:
     /// What computes the roots. Symbols below `inputs` are inputs; there must be no others.
     static Tape of(const Graph& graph, std::span<const int> roots, int inputs);
+    /// What computes values that are made by instructions, one for each of the first inputs: there it leaves
+    /// them, and the next run goes on from them.
+    static Tape goingOn(const Code& code, std::vector<std::uint32_t> values, std::size_t inputs);
 
     std::size_t registers() const { return registers_; }
     std::size_t outputs() const { return outputs_.size(); }
@@ -92,25 +97,24 @@ public:
         return made;
     }
 
-    /// `r` has registers() entries and the inputs in front; afterwards output(i, r) is root i.
+    bool goesOn() const { return goesOn_; }
+    /// `r` has registers() entries and the inputs in front; afterwards output(i, r) is root i, or, where it
+    /// goes on, r[i].
     void run(double* r) const;
     template <class T>
     const T& output(std::size_t i, const T* r) const {
         return r[outputs_[i]];
     }
-    /// Outputs whose registers are side by side, up to the output `end`.
-    struct Stretch {
-        std::uint32_t end, afterRegister;  ///< afterRegister: one past that of the last
-    };
-    /// Whether one of the outputs is an input itself.
-    bool hasInputAsOutput() const { return hasInputAsOutput_; }
-    /// Empty where most of them are short.
-    std::span<const Stretch> stretches() const { return stretches_; }
     /// Outputs first, first + 1, ... of those that were computed last.
     void copyOutputs(std::size_t first, std::size_t count, const double* r, double* to) const;
 
 private:
+    static Tape of(const Code& code, std::vector<std::uint32_t> values, std::size_t inputs);
     void findStretches();
+    /// Outputs whose registers are side by side, up to the output `end`.
+    struct Stretch {
+        std::uint32_t end, afterRegister;  ///< afterRegister: one past that of the last
+    };
 
     std::size_t inputs_ = 0, registers_ = 0;
     std::vector<double> constants_;
@@ -119,8 +123,8 @@ private:
     std::vector<LookUp> tables_;
     std::vector<std::uint32_t> outputs_;
     std::shared_ptr<MachineCode> one_, eight_;  ///< of all copies
-    std::vector<Stretch> stretches_;
-    bool hasInputAsOutput_ = false;
+    std::vector<Stretch> stretches_;            ///< empty where most of them are short
+    bool goesOn_ = false;
 };
 
 }  // namespace extremal::typed

@@ -25,10 +25,8 @@ std::uint32_t Code::value(int node) {
             made = constant(here.number);
             break;
         case Graph::Kind::symbol: {
-            Item item{Kind::input, 0, {}};
-            item.code.a = static_cast<std::uint32_t>(here.symbol);
-            items_.push_back(item);
-            made = static_cast<std::uint32_t>(items_.size() - 1);
+            const auto found = defined_.find(here.symbol);
+            made = found != defined_.end() ? found->second : input(static_cast<std::uint32_t>(here.symbol));
             break;
         }
         case Graph::Kind::sum:
@@ -56,6 +54,13 @@ std::uint32_t Code::call(const Graph::Node& node) {
     while (k < tables_.size() && !(tables_[k].table == node.table && tables_[k].order == node.order)) ++k;
     if (k == tables_.size()) tables_.push_back({node.table, node.order});
     return make(Op::lookUp, operands[0], 0, static_cast<std::uint32_t>(k));
+}
+
+std::uint32_t Code::input(std::uint32_t place) {
+    Item item{Kind::input, 0, {}};
+    item.code.a = place;
+    items_.push_back(item);
+    return static_cast<std::uint32_t>(items_.size() - 1);
 }
 
 std::uint32_t Code::constant(double number) {

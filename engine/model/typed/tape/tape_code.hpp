@@ -25,6 +25,13 @@ public:
 
     /// The value of a node; what it needs is made before it.
     std::uint32_t value(int node);
+    /// The value in an input register; that of a symbol is in the register of its number, unless it is
+    /// defined.
+    std::uint32_t input(std::uint32_t place);
+    /// A symbol that stands for a value, in nodes that are yet to be made.
+    void define(int symbol, std::uint32_t value) { defined_[symbol] = value; }
+    std::uint32_t constant(double number);
+    std::uint32_t make(Op op, std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0);
     const std::vector<Item>& items() const { return items_; }
     const std::vector<LookUp>& tables() const { return tables_; }
 
@@ -37,8 +44,6 @@ private:
         std::uint32_t value;
         double factor;
     };
-    std::uint32_t constant(double number);
-    std::uint32_t make(Op op, std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0);
     std::uint32_t sum(const Graph::Node& node);
     std::uint32_t scaledSum(double constant, const std::vector<Scaled>& terms);
     std::uint32_t plainSum(double constant, const std::vector<Scaled>& terms, double scale);
@@ -53,7 +58,7 @@ private:
     std::vector<Item> items_;
     std::vector<LookUp> tables_;
     std::map<int, std::uint32_t> known_;
-    std::map<int, std::uint32_t> inputs_;
+    std::map<int, std::uint32_t> defined_;
     std::map<std::uint64_t, std::uint32_t> constants_;
     std::map<std::tuple<Op, std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> made_;
 };

@@ -2,107 +2,127 @@
 #include "engine/model/typed/tape/tape_kicks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 
-#include "engine/core/algebra/instruction_set.hpp"
-#include "engine/model/typed/tape/tape_loops.hpp"
+#include "engine/core/algebra/add_scaled.hpp"
+#include "engine/model/typed/tape/tape_code.hpp"
+#include "engine/model/typed/tape/tape_line.hpp"
 #include "engine/model/typed/tape/tape_registers.hpp"
 
 namespace extremal::typed {
 namespace {
 
-/// p_i += kick f_i, q_i += drift p_i / m_i, of coordinates side by side.
-template <class Pack>
-struct Motion {
-    KickAndDrift<double> by;
-    const double* perMass;
-    double *q, *p;
+using Values = std::vector<std::uint32_t>;
 
-    /// What moves in the lanes of one register of the machine.
-    struct Moved {
-        Pack q, p;
-    };
-    [[gnu::always_inline]] void move(Moved& to, const double* f, std::size_t i) const {
-        Pack force, inverse;
-        registers::load(force, f);
-        registers::load(inverse, perMass + i);
-        registers::load(to.q, q + i);
-        registers::load(to.p, p + i);
-        to.p += by.kick * force;
-        to.q += (by.drift * inverse) * to.p;
+/// How far from the beginning of a line of the cache the inputs of a tape are best, so that most of those
+/// that its loops go over begin at one.
+std::size_t bestShift(const Tape& tape) {
+    constexpr std::size_t line = Lanes::size;
+    std::array<std::size_t, line> votes{};
+    for (const TapeGroup& g : tape.groups()) {
+        if (!g.isSideBySide()) continue;
+        const TapeGroup::Operand kinds[] = {g.a, g.b, g.c};
+        const TapeGroup::Operand* kind = kinds;
+        forOperands(tape.code()[g.first], [&](std::uint32_t k) {
+            if (*kind++ == TapeGroup::Operand::sideBySide && k < tape.inputs()) votes[k % line] += g.count;
+        });
     }
-    [[gnu::always_inline]] void keep(const Moved& moved, std::size_t i) const {
-        registers::store(p + i, moved.p);
-        if (by.drift != 0) registers::store(q + i, moved.q);
-    }
-    [[gnu::always_inline]] void takeOne(double f, std::size_t i) const {
-        p[i] += by.kick * f;
-        if (by.drift != 0) q[i] += (by.drift * perMass[i]) * p[i];
-    }
-    /// Those from `first` on. The last ones, which are less than a register, are moved with some before them,
-    /// from where all of these are.
-    [[gnu::always_inline]] void take(const double* f, std::size_t first, std::size_t count) const {
-        constexpr std::size_t lanes = registers::lanesOf<Pack>;
-        if (count < lanes) {
-            for (std::size_t i = 0; i < count; ++i) takeOne(f[i], first + i);
-            return;
-        }
-        Moved last;
-        move(last, f + count - lanes, first + count - lanes);
-        for (std::size_t i = 0; i + lanes <= count; i += lanes) {
-            Moved moved;
-            move(moved, f + i, first + i);
-            keep(moved, first + i);
-        }
-        if (count % lanes != 0) keep(last, first + count - lanes);
-    }
-    /// All, by the forces in the registers of a tape.
-    [[gnu::always_inline]] void take(const Tape& tape, const double* r) const {
-        std::size_t first = 0;
-        for (const auto& [end, afterRegister] : tape.stretches()) {
-            take(r + afterRegister - (end - first), first, end - first);
-            first = end;
-        }
-        for (; first < tape.outputs(); ++first) takeOne(tape.output(first, r), first);
-    }
-};
-
-template <class Pack>
-void kicksAndDriftsBy(const Tape* tape, std::span<const KickAndDrift<double>> pairs, const double* perMass,
-                      bool isForceKnown, double* q, double* p, double* force) {
-    const std::size_t d = tape->outputs();
-    TapeRoom room(tape->registers());
-    double* const r = room.data();
-    std::copy_n(q, d, r);
-    const MachineCode::Call code = tape->forOne();
-    if (!code) detail::fillConstants(*tape, r);
-    // A force that is a coordinate itself is read before that moves.
-    const bool isCoordinate = tape->hasInputAsOutput();
-    for (const KickAndDrift<double>& pair : pairs) {
-        const Motion<Pack> motion{pair, perMass, r, p};
-        if (!isForceKnown && code)
-            code(r);
-        else if (!isForceKnown)
-            detail::carryOutAll<Pack>(*tape, r);
-        const bool isCopied = !isForceKnown && (isCoordinate || &pair == &pairs.back());
-        if (isCopied) tape->copyOutputs(0, d, r, force);
-        if (isForceKnown || isCoordinate)
-            motion.take(force, 0, d);
-        else
-            motion.take(*tape, r);
-        isForceKnown = false;
-    }
-    std::copy_n(r, d, q);
+    const auto most = std::max_element(votes.begin(), votes.end()) - votes.begin();
+    return (line - static_cast<std::size_t>(most)) % line;
 }
 
 }  // namespace
 
-void kicksAndDrifts(const Tape& forces, std::span<const KickAndDrift<double>> pairs, const double* perMass,
-                    bool isForceKnown, double* q, double* p, double* force) {
-    using namespace registers;
-    static const auto call =
-        ForThisMachine<&kicksAndDriftsBy<Eight>, &kicksAndDriftsBy<Four>, &kicksAndDriftsBy<Two>>::call();
-    call(&forces, pairs, perMass, isForceKnown, q, p, force);
+KickTape::KickTape(const Graph& graph, std::span<const int> forces, const Drifts& drifts)
+    : d_(forces.size()) {
+    const auto d = static_cast<std::uint32_t>(d_);
+    Code code(graph);
+    Values f, p, q;
+    for (const int root : forces) {
+        f.push_back(code.value(root));
+        // Where it is a coordinate or a number it is made here: a tape that goes on from what it has computed
+        // reads none of its inputs as a result.
+        if (code.items()[f.back()].kind != Code::Kind::instruction)
+            f.back() = code.make(Op::multiply, code.constant(1), f.back());
+    }
+    const std::uint32_t kick = code.input(3 * d), drift = code.input(3 * d + 1);
+    for (std::uint32_t i = 0; i < d; ++i)
+        p.push_back(code.make(Op::add, code.input(d + i), code.make(Op::multiply, kick, f[i])));
+    const Values moves = drifts(code, drift, p);
+    for (std::uint32_t i = 0; i < d; ++i) q.push_back(code.make(Op::add, code.input(i), moves[i]));
+    Values all = std::move(q);
+    for (const Values& each : {p, f}) all.insert(all.end(), each.begin(), each.end());
+    tape_ = Tape::goingOn(code, std::move(all), 3 * d_ + 2);
+    shift_ = bestShift(tape_);
+}
+
+KickTape KickTape::ofSeparable(const Graph& graph, std::span<const int> forces,
+                               std::span<const double> masses) {
+    return {graph, forces, [&](Code& code, std::uint32_t drift, const Values& p) {
+                Values moves;
+                for (std::size_t i = 0; i < p.size(); ++i) {
+                    const double perMass = 1 / masses[i];
+                    const std::uint32_t own =
+                        perMass == 1 ? drift : code.make(Op::multiply, drift, code.constant(perMass));
+                    moves.push_back(code.make(Op::multiply, own, p[i]));
+                }
+                return moves;
+            }};
+}
+
+KickTape KickTape::ofSum(const Graph& graph, std::span<const int> forces, std::span<const int> velocities) {
+    return {graph, forces, [&](Code& code, std::uint32_t drift, const Values& p) {
+                for (std::size_t i = 0; i < p.size(); ++i) code.define(static_cast<int>(p.size() + i), p[i]);
+                Values moves;
+                for (const int root : velocities)
+                    moves.push_back(code.make(Op::multiply, drift, code.value(root)));
+                return moves;
+            }};
+}
+
+template <class Drifted>
+void KickTape::takeBy(const KicksAndDrifts<double>& steps, const Drifted& drift, double* q, double* p,
+                      double* force) const {
+    TapeRoom room(tape_.registers() + shift_);
+    double *const r = room.data() + shift_, *const momenta = r + d_, *const forces = r + 2 * d_,
+                  *const durations = r + 3 * d_;
+    std::copy_n(q, d_, r);
+    std::copy_n(p, d_, momenta);
+    if (steps.isForceKnown) std::copy_n(force, d_, forces);
+    steps.take([&](double s) { drift(s, r, momenta); },
+               [&](const KickAndDrift<double>& by, bool isForceKnown) {
+                   if (isForceKnown) {
+                       addScaled(momenta, by.kick, forces, d_);
+                       return drift(by.drift, r, momenta);
+                   }
+                   durations[0] = by.kick;
+                   durations[1] = by.drift;
+                   tape_.run(r);
+               },
+               [&](long long step) {
+                   if (!steps.nodes) return;
+                   std::copy_n(r, 2 * d_, steps.nodes + static_cast<std::size_t>(step) * steps.stride);
+               });
+    std::copy_n(r, d_, q);
+    std::copy_n(momenta, d_, p);
+    std::copy_n(forces, d_, force);
+}
+
+void KickTape::take(const KicksAndDrifts<double>& steps, const void* model, Drift drift, double* q, double* p,
+                    double* force) const {
+    takeBy(
+        steps, [&](double s, double* x, const double* momenta) { drift(model, s, x, momenta); }, q, p, force);
+}
+void KickTape::take(const KicksAndDrifts<double>& steps, double* q, double* p, double* force) const {
+    takeBy(
+        steps,
+        [&](double s, double* x, const double* momenta) {
+            addScaledProducts(x, s, steps.perMass, momenta, d_);
+        },
+        q, p, force);
 }
 
 }  // namespace extremal::typed
