@@ -73,6 +73,22 @@ void kickAndDrift(double* y, const Splitting* table, double end, double n, const
     std::copy_n(v.begin(), d, y + d);
 }
 
+/// The state after fixed steps, taken as a run takes them: in blocks, whose nodes are kept. Empty where one
+/// fails.
+inline std::vector<double> takeSteps(Integrator& integrator, State state, double step, double count) {
+    thread_local std::unique_ptr<NodeBlock> nodes;
+    if (!nodes || nodes->width() != state.x.size())
+        nodes = std::make_unique<NodeBlock>(state.x.size(),
+                                            std::clamp<std::size_t>(16384 / state.x.size(), 1, 512));
+    const Clock clock{state.t, step};
+    while (static_cast<double>(state.node) < count) {
+        nodes->clear();
+        const auto left = static_cast<std::size_t>(count - static_cast<double>(state.node));
+        if (integrator.advanceBlock(state, *nodes, left, clock).outcome != Outcome::converged) return {};
+    }
+    return state.x;
+}
+
 /// `accelerate(x, a)`; `coefficients` as for integrateByTaylor.
 template <std::size_t d, class Accelerate, class Coefficients>
 void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& accelerate,
@@ -81,10 +97,7 @@ void addFewBodies(PeerTable& table, const FewBodies<d>& p, const Accelerate& acc
     for (std::size_t i = 0; i < d; ++i) from.x[d + i] *= p.system.mechanics().masses[i];
     const auto endOf = [&](const Make& make, double n) {
         const auto integrator = make(p.system, from, p.end / n);
-        State state = from;
-        for (double i = 0; i < n; ++i)
-            if (advance(*integrator, state).outcome != Outcome::converged) return std::vector<double>{};
-        return state.x;
+        return takeSteps(*integrator, from, p.end / n, std::ceil(n));
     };
     // Two degrees and steps agree to some 1e-13.
     const std::vector<double> exact =
