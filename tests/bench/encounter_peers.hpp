@@ -51,13 +51,25 @@ public:
                 a[2 * j + 1] += mass[i] * w * v;
             }
     }
-    /// The negative potential.
-    static T attraction(const T* x) {
+    /// The same, and the negative potential, with one root for each distance.
+    static T attraction(const T* x, T* a) {
         T sum = 0;
+        for (std::size_t k = 0; k < d; ++k) a[k] = 0;
         for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < i; ++j)
-                sum += mass[i] * mass[j] / std::hypot(x[2 * i] - x[2 * j], x[2 * i + 1] - x[2 * j + 1]);
+            for (std::size_t j = 0; j < i; ++j) {
+                const T u = x[2 * i] - x[2 * j], v = x[2 * i + 1] - x[2 * j + 1],
+                        near = 1 / std::sqrt(u * u + v * v), w = near * near * near;
+                sum += mass[i] * mass[j] * near;
+                a[2 * i] -= mass[j] * w * u;
+                a[2 * i + 1] -= mass[j] * w * v;
+                a[2 * j] += mass[i] * w * u;
+                a[2 * j + 1] += mass[i] * w * v;
+            }
         return sum;
+    }
+    static T attraction(const T* x) {
+        std::array<T, d> a;
+        return attraction(x, a.data());
     }
     /// The coefficients n of all accelerations.
     std::array<T, d> coefficients(const std::array<TaylorOf<T>, d>& x, std::size_t n) {
@@ -151,8 +163,7 @@ inline std::array<double, 12> byLogarithmicLeapfrog(double step, const std::vect
         for (const double part : parts) {
             drift((open + part) * step / 2);
             open = part;
-            Three::accelerate(y.data(), a.data());
-            const double kick = part * step / Three::attraction(y.data());
+            const double kick = part * step / Three::attraction(y.data(), a.data());
             for (std::size_t k = 0; k < 6; ++k) y[6 + k] += kick * a[k];
         }
         drift(open * step / 2);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -46,6 +47,7 @@ public:
           isEight_(isEight),
           isWide_(isEight),
           does_(tape, isEight ? 0 : mostInLoop),
+          kept_(tape.goesOn() ? static_cast<std::uint32_t>(tape.outputs()) : 0),
           firstMade_(tape.inputs() + tape.constants().size()),
           numbersAt_(tape.constants().begin(), tape.constants().end()) {
         numbersAt_.push_back(1);
@@ -54,36 +56,34 @@ public:
         findAlive();
     }
 
-    MachineCode::Call write() {
+    void* write() {
         const bool hasCalls = std::any_of(does_.code.begin(), does_.code.end(),
                                           [](const Instruction& i) { return !isArithmetic(i.op); });
+        const Xbyak::Reg64 overCalls[] = {rbx, r12, r13, r14};
         if (hasCalls) {
-            push(rbx);
-            push(r12);
+            for (const Xbyak::Reg64& each : overCalls) push(each);
             sub(rsp, 8);
             mov(rbx, rdi);
+            mov(r13, rsi);
+            mov(r14, rdx);
         }
         r_ = hasCalls ? rbx : rdi;
-        numbers_ = hasCalls ? r12 : rsi;
+        numbers_ = hasCalls ? r12 : rcx;
         mov(numbers_, reinterpret_cast<std::size_t>(numbersAt_.data()));
-        if (!hasLoops())
-            for (const Instruction& i : does_.code) carryOut(i);
-        else
-            carryOutParts();
-        for (std::uint32_t i = 0; i < does_.outputs.size(); ++i)
-            if (tape_.goesOn())
-                copy(does_.outputs[i], i);
-            else
-                keep(does_.outputs[i]);
+        if (tape_.goesOn()) {
+            writeRuns(hasCalls ? r13 : rsi, hasCalls ? r14 : rdx);
+        } else {
+            carryOutAll();
+            for (const std::uint32_t output : does_.outputs) keep(output);
+        }
         leaveWideRegisters();
         if (hasCalls) {
             add(rsp, 8);
-            pop(r12);
-            pop(rbx);
+            for (std::size_t k = std::size(overCalls); k-- > 0;) pop(overCalls[k]);
         }
         ret();
         readyRE();
-        return getCode<MachineCode::Call>();
+        return const_cast<std::uint8_t*>(getCode());
     }
 
 private:
@@ -120,8 +120,9 @@ private:
                     uses[i.to] = 0;
                 }
         std::vector<std::uint32_t> order;
-        for (auto k = static_cast<std::uint32_t>(firstMade_); k < uses.size(); ++k)
-            if (uses[k] > 0) order.push_back(k);
+        for (std::uint32_t k = 0; k < uses.size(); ++k)
+            if (uses[k] > 0 && (k >= firstMade_ || (tape_.goesOn() && k < tape_.inputs())))
+                order.push_back(k);
         std::stable_sort(order.begin(), order.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return uses[a] > uses[b]; });
         place_.assign(uses.size(), -1);
@@ -136,6 +137,7 @@ private:
             if (place_[k] >= 0) placed.push_back(k);
         std::vector<bool> isAlive(tape_.registers(), false);
         for (const std::uint32_t k : does_.outputs) isAlive[k] = true;
+        for (std::uint32_t k = 0; k < kept_; ++k) isAlive[k] = true;
         for (std::size_t at = does_.code.size(); at-- > 0;) {
             const Instruction& i = does_.code[at];
             isAlive[i.to] = false;
@@ -273,9 +275,41 @@ private:
         else if (isConstant(k))
             store(slot(k), loaded(sourceOf(k), scratch(0)).getIdx());
     }
-    /// What register `from` of the tape holds to register `to`, in memory.
+    /// What register `from` of the tape holds to register `to`.
     void copy(std::uint32_t from, std::uint32_t to) {
-        if (from != to) store(slot(to), loaded(sourceOf(from), scratch(0)).getIdx());
+        if (from == to) return;
+        const Register value = loaded(sourceOf(from), place_[to] >= 0 ? place_[to] : scratch(0));
+        if (place_[to] < 0)
+            store(slot(to), value.getIdx());
+        else if (value.getIdx() != place_[to])
+            vmovapd(numbered(place_[to]), value);
+    }
+
+    void carryOutAll() {
+        if (!hasLoops())
+            for (const Instruction& i : does_.code) carryOut(i);
+        else
+            carryOutParts();
+    }
+    /// Of a tape that goes on: one run after the other, each with numbers of its own from `next` on. What is
+    /// kept from run to run is in registers of the machine as far as these go.
+    void writeRuns(const Xbyak::Reg64& next, const Xbyak::Reg64& end) {
+        const auto fresh = static_cast<std::uint32_t>(tape_.inputs()) - kept_;
+        for (std::uint32_t k = 0; k < kept_; ++k)
+            if (place_[k] >= 0) vmovsd(Register(place_[k]), qword[slot(k)]);
+        Xbyak::Label again;
+        L(again);
+        for (std::uint32_t k = 0; k < fresh; ++k) {
+            const int place = place_[kept_ + k];
+            vmovsd(Register(place >= 0 ? place : scratch(0)), qword[next + static_cast<int>(8 * k)]);
+            if (place < 0) store(slot(kept_ + k), scratch(0));
+        }
+        add(next, 8 * fresh);
+        carryOutAll();
+        for (std::uint32_t i = 0; i < kept_; ++i) copy(does_.outputs[i], i);
+        cmp(next, end);
+        jb(again, T_NEAR);
+        for (std::uint32_t k = 0; k < kept_; ++k) keep(k);
     }
 
     // Loops.
@@ -379,6 +413,7 @@ private:
     bool isEight_;
     bool isWide_;  ///< eight numbers in each register of the machine, here
     TapeParts does_;
+    std::uint32_t kept_;             ///< inputs that a tape that goes on leaves to its next run
     std::size_t firstMade_;          ///< register of the tape
     std::vector<double> numbersAt_;  ///< constants of the tape, then 1 and -0
     std::vector<int> place_;         ///< of each register of the tape in the machine; negative: in memory
@@ -394,29 +429,29 @@ struct MachineCode::Made {
     Writer writer;
 };
 
-MachineCode::Call MachineCode::make(const Tape& tape) {
+void* MachineCode::make(const Tape& tape) {
     constexpr std::size_t longest = 20000;
     const std::lock_guard lock(making_);
-    if (left_.load(std::memory_order_relaxed) < 0) return call_.load(std::memory_order_acquire);
+    if (left_.load(std::memory_order_relaxed) < 0) return code_.load(std::memory_order_acquire);
     const bool isWide = isEight_ || !tape.groups().empty();
     const InstructionSet needed = isWide ? InstructionSet::avx512 : InstructionSet::avx2;
     if (instructionSet() >= needed && tape.length() <= longest) {
         try {
             made_ = std::make_unique<Made>(tape, isEight_);
-            call_.store(made_->writer.write(), std::memory_order_release);
+            code_.store(made_->writer.write(), std::memory_order_release);
         } catch (const Xbyak::Error&) {
             made_.reset();  // no executable memory
         }
     }
     left_.store(-1, std::memory_order_relaxed);
-    return call_.load(std::memory_order_acquire);
+    return code_.load(std::memory_order_acquire);
 }
 
 #else
 
 struct MachineCode::Made {};
 
-MachineCode::Call MachineCode::make(const Tape&) {
+void* MachineCode::make(const Tape&) {
     left_.store(-1, std::memory_order_relaxed);
     return nullptr;
 }

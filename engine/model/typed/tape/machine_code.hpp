@@ -28,9 +28,11 @@ public:
 
     /// `r`: as in Tape::run(), eight of each side by side where it is of eight; constants need not be there.
     using Call = void (*)(double* r);
-    /// Null where the tape is to be carried out otherwise. Always of the same tape.
-    Call of(const Tape& tape) {
-        if (const Call ready = call_.load(std::memory_order_acquire)) return ready;
+    /// What the call of a tape that goes on is: as Tape::goOn(), for one run or more.
+    using Runs = void (*)(double* r, const double* fresh, const double* end);
+    /// A Call, or Runs; null where the tape is to be carried out otherwise. Always of the same tape.
+    void* of(const Tape& tape) {
+        if (void* const ready = code_.load(std::memory_order_acquire)) return ready;
         const int left = left_.load(std::memory_order_relaxed);
         if (left < 0) return nullptr;
         if (left > 0) return left_.store(left - 1, std::memory_order_relaxed), nullptr;
@@ -39,10 +41,10 @@ public:
 
 private:
     struct Made;
-    Call make(const Tape& tape);
+    void* make(const Tape& tape);
 
     bool isEight_;
-    std::atomic<Call> call_{nullptr};
+    std::atomic<void*> code_{nullptr};
     std::atomic<int> left_{1};  ///< runs before it is made; negative: it is not made any more
     std::mutex making_;
     std::unique_ptr<Made> made_;

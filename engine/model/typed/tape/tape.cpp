@@ -159,11 +159,23 @@ void Tape::copyOutputs(std::size_t first, std::size_t count, const double* r, do
 
 void Tape::run(double* r) const {
     if (const auto code = forOne()) return code(r);
-    if (!groups_.empty())
-        runGroups(*this, r);
-    else
-        detail::run(*this, r);
-    if (goesOn_) copyOutputs(0, outputs_.size(), r, r);
+    runOne(r);
+}
+
+void Tape::runOne(double* r) const {
+    if (!groups_.empty()) return runGroups(*this, r);
+    detail::run(*this, r);
+}
+
+void Tape::goOn(double* r, const double* fresh, const double* end) const {
+    const std::size_t kept = outputs_.size(), each = inputs_ - kept;
+    while (fresh != end) {
+        if (const auto code = codeOf<MachineCode::Runs>(one_)) return code(r, fresh, end);
+        std::copy_n(fresh, each, r + kept);
+        fresh += each;
+        runOne(r);
+        copyOutputs(0, kept, r, r);
+    }
 }
 
 }  // namespace extremal::typed

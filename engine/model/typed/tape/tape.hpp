@@ -70,7 +70,7 @@ public:
     /// What computes the roots. Symbols below `inputs` are inputs; there must be no others.
     static Tape of(const Graph& graph, std::span<const int> roots, int inputs);
     /// What computes values that are made by instructions, one for each of the first inputs: there it leaves
-    /// them, and the next run goes on from them.
+    /// them, and the next run goes on from them. The other inputs are fresh in each run.
     static Tape goingOn(const Code& code, std::vector<std::uint32_t> values, std::size_t inputs);
 
     std::size_t registers() const { return registers_; }
@@ -88,8 +88,8 @@ public:
     std::span<const std::uint32_t> outputPlaces() const { return outputs_; }
     /// The code that carries it out, of each number one or eight side by side; null where it has none, or not
     /// yet.
-    MachineCode::Call forOne() const { return one_ ? one_->of(*this) : nullptr; }
-    MachineCode::Call forEight() const { return eight_ ? eight_->of(*this) : nullptr; }
+    MachineCode::Call forOne() const { return codeOf<MachineCode::Call>(one_); }
+    MachineCode::Call forEight() const { return codeOf<MachineCode::Call>(eight_); }
     /// A copy that will have no code.
     Tape withoutCode() const {
         Tape made = *this;
@@ -98,8 +98,9 @@ public:
     }
 
     bool goesOn() const { return goesOn_; }
-    /// `r` has registers() entries and the inputs in front; afterwards output(i, r) is root i, or, where it
-    /// goes on, r[i].
+    /// Of one that goes on: a run for each inputs() - outputs() numbers from `fresh` to `end`.
+    void goOn(double* r, const double* fresh, const double* end) const;
+    /// `r` has registers() entries and the inputs in front; afterwards output(i, r) is root i.
     void run(double* r) const;
     template <class T>
     const T& output(std::size_t i, const T* r) const {
@@ -111,6 +112,11 @@ public:
 private:
     static Tape of(const Code& code, std::vector<std::uint32_t> values, std::size_t inputs);
     void findStretches();
+    void runOne(double* r) const;  ///< without code
+    template <class Call>
+    Call codeOf(const std::shared_ptr<MachineCode>& code) const {
+        return code ? reinterpret_cast<Call>(code->of(*this)) : nullptr;
+    }
     /// Outputs whose registers are side by side, up to the output `end`.
     struct Stretch {
         std::uint32_t end, afterRegister;  ///< afterRegister: one past that of the last

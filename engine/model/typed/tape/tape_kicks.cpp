@@ -86,26 +86,25 @@ KickTape KickTape::ofSum(const Graph& graph, std::span<const int> forces, std::s
 template <class Drifted>
 void KickTape::takeBy(const KicksAndDrifts<double>& steps, const Drifted& drift, double* q, double* p,
                       double* force) const {
+    static_assert(sizeof(KickAndDrift<double>) == 2 * sizeof(double));
     TapeRoom room(tape_.registers() + shift_);
-    double *const r = room.data() + shift_, *const momenta = r + d_, *const forces = r + 2 * d_,
-                  *const durations = r + 3 * d_;
+    double *const r = room.data() + shift_, *const momenta = r + d_, *const forces = r + 2 * d_;
     std::copy_n(q, d_, r);
     std::copy_n(p, d_, momenta);
     if (steps.isForceKnown) std::copy_n(force, d_, forces);
-    steps.take([&](double s) { drift(s, r, momenta); },
-               [&](const KickAndDrift<double>& by, bool isForceKnown) {
-                   if (isForceKnown) {
-                       addScaled(momenta, by.kick, forces, d_);
-                       return drift(by.drift, r, momenta);
-                   }
-                   durations[0] = by.kick;
-                   durations[1] = by.drift;
-                   tape_.run(r);
-               },
-               [&](long long step) {
-                   if (!steps.nodes) return;
-                   std::copy_n(r, 2 * d_, steps.nodes + static_cast<std::size_t>(step) * steps.stride);
-               });
+    bool isForceKnown = steps.isForceKnown && steps.firstDrift == 0;
+    for (long long step = 0; step < steps.steps; ++step) {
+        std::span<const KickAndDrift<double>> left = steps.pairs;
+        if (steps.firstDrift != 0) drift(steps.firstDrift, r, momenta);
+        if (isForceKnown && !left.empty()) {
+            addScaled(momenta, left.front().kick, forces, d_);
+            drift(left.front().drift, r, momenta);
+            left = left.subspan(1);
+        }
+        if (!left.empty()) tape_.goOn(r, &left.front().kick, &left.front().kick + 2 * left.size());
+        isForceKnown = steps.keepsForce();
+        if (steps.nodes) std::copy_n(r, 2 * d_, steps.nodes + static_cast<std::size_t>(step) * steps.stride);
+    }
     std::copy_n(r, d_, q);
     std::copy_n(momenta, d_, p);
     std::copy_n(forces, d_, force);

@@ -4,6 +4,8 @@
 /// shares it.
 #include <QTest>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -15,6 +17,7 @@
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/model/typed/tape/node_tape.hpp"
 #include "engine/model/typed/tape/tape.hpp"
+#include "engine/model/typed/tape/tape_kicks.hpp"
 #include "engine/model/typed/tape/tape_run.hpp"
 #include "tests/tools/test.hpp"
 
@@ -134,6 +137,45 @@ int differences(const Tape& tape, unsigned seed, int places = 40) {
     return found;
 }
 
+/// The same for what force and velocity make of places and momenta in steps of two kicks.
+int kicksThatDiffer(const Graph& graph, const std::vector<int>& forces, const std::vector<int>& velocities,
+                    unsigned seed) {
+    constexpr std::size_t d = inputs;
+    std::mt19937 draw(seed);
+    const auto together = typed::KickTape::ofSum(graph, forces, velocities);
+    const Tape force = Tape::of(graph, forces, inputs).withoutCode(),
+               velocity = Tape::of(graph, velocities, 2 * inputs).withoutCode();
+    std::vector<double> r(force.registers()), s(velocity.registers());
+    std::array<double, d> q{}, p{}, f{}, Q{}, P{}, F{};
+    const auto drift = [&](double by) {
+        std::copy(P.begin(), P.end(), s.begin() + d);
+        typed::detail::run(velocity, s.data());
+        for (std::size_t k = 0; k < d; ++k) Q[k] += by * velocity.output(k, s.data());
+    };
+    int found = 0;
+    for (int start = 0; start < 5; ++start) {
+        for (std::size_t k = 0; k < d; ++k) q[k] = Q[k] = numberBy(draw), p[k] = P[k] = numberBy(draw);
+        const std::array<KickAndDrift<double>, 2> pairs{{{0.3, -0.2}, {-0.1, 0.4}}};
+        KicksAndDrifts<double> steps;
+        steps.pairs = pairs;
+        steps.firstDrift = 0.25;
+        steps.steps = 3;
+        together.take(
+            steps, nullptr, [](const void*, double, double*, const double*) {}, q.data(), p.data(), f.data());
+        for (int step = 0; step < 3; ++step)
+            for (const auto& [kick, by] : pairs) {
+                std::copy(Q.begin(), Q.end(), r.begin());
+                typed::detail::run(force, r.data());
+                force.copyOutputs(0, d, r.data(), F.data());
+                for (std::size_t k = 0; k < d; ++k) P[k] += kick * F[k];
+                drift(by);
+            }
+        for (std::size_t k = 0; k < d; ++k)
+            found += !isSame(q[k], Q[k]) + !isSame(p[k], P[k]) + !isSame(f[k], F[k]);
+    }
+    return found;
+}
+
 bool hasCode() {
 #ifdef __x86_64__
     return instructionSet() != InstructionSet::baseline;
@@ -202,8 +244,8 @@ class MachineCodeTest : public QObject {
         Formulas formulas(9);
         Graph& graph = formulas.graph();
         const std::vector<double> y{1, 0, 2, -1, 5};
-        const auto table = std::make_shared<const Interpolant>(
-            Interpolant::Kind::cubic, std::vector<double>{-2, -1, 0, 1.5, 3}, y);
+        const auto table = std::make_shared<const Interpolant>(Interpolant::Kind::cubic,
+                                                               std::vector<double>{-2, -1, 0, 1.5, 3}, y);
         std::vector<int> roots;
         for (int order = 0; order < 3; ++order) {
             const int at = graph.lookUp(table, order, graph.symbol(order));
@@ -212,6 +254,23 @@ class MachineCodeTest : public QObject {
                                        graph.scaled(at, 2), graph.symbol(5)));
         }
         QCOMPARE(differences(formulas.tape(roots), 2), 0);
+    }
+    /// Kicks and drifts whose values go from one to the next, against force and velocity one by one.
+    void tapesThatGoOn_data() { bitsOfArithmetic_data(); }
+    void tapesThatGoOn() {
+        QFETCH(int, size);
+        for (unsigned seed = 1; seed <= 40; ++seed) {
+            Formulas formulas(2000 + seed);
+            formulas.add(size, seed % 2 == 0);
+            Graph& graph = formulas.graph();
+            std::vector<int> forces, velocities;
+            for (int k = 0; k < inputs; ++k) {
+                forces.push_back(k == 2 ? graph.symbol(3) : k == 4 ? graph.number(0.5) : formulas.node());
+                const int p = graph.symbol(inputs + k), other = graph.symbol(inputs + (k + 1) % inputs);
+                velocities.push_back(graph.sum(0.1, {{p, 0.7}, {graph.product({{other, 3}}), -0.2}}));
+            }
+            QCOMPARE(kicksThatDiffer(graph, forces, velocities, seed), 0);
+        }
     }
     /// At the second run, of all copies.
     void codeIsMadeForWhatRunsAgain() {
