@@ -31,15 +31,37 @@ void fill(const double* u, std::size_t n, double* W, double* slope, double* curv
 inline void sineLanes(const double* u, std::size_t n, double* slope) {
     std::size_t i = 0;
     for (; i + Lanes::size <= n; i += Lanes::size) sin(Lanes::load(u + i)).store(slope + i);
+    if (i == n) return;
     Lanes rest;
     for (std::size_t k = 0; i + k < n; ++k) rest.lane[k] = u[i + k];
     rest = sin(rest);
     for (std::size_t k = 0; i + k < n; ++k) slope[i + k] = rest.lane[k];
 }
 
+/// The same bits for values below pi/4, where the reduction of an angle changes nothing.
+inline void smallSines(const double* u, std::size_t n, double* slope) {
+    for (std::size_t i = 0; i < n; ++i) slope[i] = detail::sinNearZero(u[i], 0.0);
+}
+/// Whether all are. Neighbours are much alike: of most that are not, the ends say so.
+bool areSmall(const double* u, std::size_t n) {
+    constexpr double bound = 0.78;
+    double most = std::max(std::fabs(u[0]), std::fabs(u[n - 1]));
+    for (std::size_t i = 0; i < n && most <= bound; i += Lanes::size) {
+        double largest[Lanes::size] = {};
+        for (std::size_t k = 0; k < Lanes::size; ++k) largest[k] = std::fabs(u[i + k]);
+        for (const double each : largest) most = std::max(most, each);
+    }
+    return most <= bound;
+}
+
+/// A field that is at rest but for a few waves is small at most places.
 void sines(const double* u, std::size_t n, double* slope) {
-    static const auto call = ForThisMachine<&sineLanes>::call();
-    call(u, n, slope);
+    constexpr std::size_t together = 32;
+    static const auto any = ForThisMachine<&sineLanes>::call(), small = ForThisMachine<&smallSines>::call();
+    std::size_t i = 0;
+    for (; i + together <= n; i += together)
+        (areSmall(u + i, together) ? small : any)(u + i, together, slope + i);
+    any(u + i, n - i, slope + i);
 }
 
 }  // namespace
