@@ -10,11 +10,20 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes.hpp"
 #include "engine/family/modal_step.hpp"
 #include "engine/step/field_march.hpp"
 
 namespace extremal {
+namespace detail {
+
+/// values <- share (shift values - slope).
+inline void takeRest(double share, double shift, const double* slope, double* values, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) values[i] = share * (shift * values[i] - slope[i]);
+}
+
+}  // namespace detail
 
 /// Grid: FourierGrid or ElementGrid.
 template <class Grid>
@@ -63,11 +72,11 @@ protected:
     }
     /// A row of G from values_ and slope_; values_ are lost.
     void forceToModes(double* row) {
+        static const auto takeRest = ForThisMachine<&detail::takeRest>::call();
         const double share = grid_.pointShare();
         for (std::size_t c = 0; c < components_; ++c) {
             double* const values = values_.data() + c * stride_;
-            const double* const slope = slope_.data() + c * stride_;
-            for (std::size_t i = 0; i < points_; ++i) values[i] = share * (shifts_[c] * values[i] - slope[i]);
+            takeRest(share, shifts_[c], slope_.data() + c * stride_, values, points_);
             grid_.fromPoints(values, row + c * grid_.numbers());
         }
     }

@@ -22,6 +22,7 @@ SpectralGrid::SpectralGrid(int nx, int ny, int mx, int my)
       points_(product(mx, my)),
       modes_(product(nx / 2 + 1, ny)),
       kept_(static_cast<std::size_t>((nx + 1) / 2)),
+      hasPointsAtNodes_(mx == nx && my == ny),
       atNodes_(nx, ny),
       atPoints_(mx, my),
       values_(std::max(nodes_, points_)),
@@ -32,6 +33,14 @@ bool SpectralGrid::findRow(std::size_t l, std::size_t& atPoints) const {
     if (n > 1 && 2 * l == n) return false;
     atPoints = 2 * l < n ? l : static_cast<std::size_t>(my_) - (n - l);
     return true;
+}
+
+void SpectralGrid::clearOutside(double* row) const {
+    const std::size_t width = static_cast<std::size_t>(nx_ / 2 + 1);
+    for (std::size_t l = 0, same = 0; l < rows(); ++l) {
+        const std::size_t kept = findRow(l, same) ? kept_ : 0;
+        std::fill(row + 2 * (l * width + kept), row + 2 * (l + 1) * width, 0.0);
+    }
 }
 
 void SpectralGrid::toModes(const double* nodes, double* row) {
@@ -49,6 +58,12 @@ void SpectralGrid::toNodes(const double* row, double* nodes) {
 void SpectralGrid::toPoints(const double* row, double* values) {
     const std::size_t width = static_cast<std::size_t>(nx_ / 2 + 1),
                       wide = static_cast<std::size_t>(mx_ / 2 + 1);
+    if (hasPointsAtNodes_) {
+        std::copy_n(row, 2 * modes_, spectrum_.data());
+        clearOutside(spectrum_.data());
+        atPoints_.toNodes(modesOfRow(spectrum_.data()), values);
+        return;
+    }
     std::fill(spectrum_.begin(), spectrum_.end(), 0.0);
     for (std::size_t l = 0, to = 0; l < rows(); ++l)
         if (findRow(l, to)) std::copy_n(row + 2 * l * width, 2 * kept_, spectrum_.data() + 2 * to * wide);
@@ -58,9 +73,15 @@ void SpectralGrid::toPoints(const double* row, double* values) {
 void SpectralGrid::fromPoints(const double* values, double* row) {
     const std::size_t width = static_cast<std::size_t>(nx_ / 2 + 1),
                       wide = static_cast<std::size_t>(mx_ / 2 + 1);
+    if (hasPointsAtNodes_) {
+        atPoints_.toModes(values, modesOfRow(row));
+        clearOutside(row);
+        return;
+    }
     atPoints_.toModes(values, modesOfRow(spectrum_.data()));
     for (std::size_t l = 0, from = 0; l < rows(); ++l)
         if (findRow(l, from)) std::copy_n(spectrum_.data() + 2 * from * wide, 2 * kept_, row + 2 * l * width);
+    clearOutside(row);
 }
 
 double SpectralGrid::squareOf(const double* row) const {

@@ -26,7 +26,7 @@ public:
     void toNodes(const double* row, double* nodes);
     /// Values of the modes |k| < N/2.
     void toPoints(const double* row, double* values);
-    /// Their modes |k| < N/2, times 1/M; others of the row stay. `values`: aligned.
+    /// Their modes |k| < N/2, times M; others of the row become 0. `values` and `row`: aligned.
     void fromPoints(const double* values, double* row);
     /// sum of |c|^2 over all modes of a row, conjugates included.
     double squareOf(const double* row) const;
@@ -36,9 +36,12 @@ private:
     /// The row of modes of wave number l modulo ny, among those of the points; no such row where it is not a
     /// part of the space.
     bool findRow(std::size_t l, std::size_t& atPoints) const;
+    /// Modes of a row that are not a part of the space <- 0.
+    void clearOutside(double* row) const;
 
     int nx_, ny_, mx_, my_;
     std::size_t nodes_, points_, modes_, kept_;
+    bool hasPointsAtNodes_;
     RealFourier atNodes_, atPoints_;
     std::vector<double> values_, spectrum_;
 };
