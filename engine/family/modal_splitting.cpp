@@ -12,6 +12,7 @@
 #include "engine/core/algebra/lanes_trigonometry.hpp"
 #include "engine/family/fourier_grid.hpp"
 #include "engine/family/modal_march.hpp"
+#include "engine/integrator/skips_nodes.hpp"
 
 namespace extremal {
 namespace {
@@ -25,17 +26,53 @@ void turnRows(double* u, double* v, const double* own, const double* other, cons
         v[i] = back[i] * before + own[i] * v[i];
     }
 }
+/// The same after v <- v + kick g.
+void kickAndTurnRows(double kick, const double* g, double* u, double* v, const double* own,
+                     const double* other, const double* back, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) {
+        const double before = u[i], kicked = v[i] + kick * g[i];
+        u[i] = own[i] * before + other[i] * kicked;
+        v[i] = back[i] * before + own[i] * kicked;
+    }
+}
 
-class ModalSplitting final : public ModalMarch<FourierGrid> {
+class ModalSplitting final : public ModalMarch<FourierGrid>, public SkipsNodes {
 public:
     ModalSplitting(const SpectralDomain& domain, const Splitting& splitting, double step)
-        : ModalMarch(FourierGrid(domain, domain.nx, domain.ny), domain, step), stages_(splitting.stages) {
+        : ModalMarch(FourierGrid(domain, domain.nx, domain.ny), domain, step),
+          stages_(splitting.stages),
+          joined_(stages_.front().fraction) {
+        // Of two neighbouring steps the free motions that meet are one.
+        if (!stages_.front().isKick && !stages_.back().isKick) joined_ += stages_.back().fraction;
         kicks_ = static_cast<std::size_t>(
             std::count_if(stages_.begin(), stages_.end(), [](const SplittingStage& s) { return s.isKick; }));
         known_.resize(2 * n());
         for (auto* row : {&U_, &V_, &G_, &dU_, &dV_}) row->resize(linear_.size());
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<ModalSplitting>(*this); }
+    /// The first step makes modes of the state, the last one leaves what can be asked of it.
+    StepReport advanceOver(State& state, long long count, const Clock& clock) override {
+        if (count < 3) return advanceByNodes(*this, state, count, clock);
+        StepReport report = advance(state, clock.at(state.node + 1));
+        if (report.outcome != Outcome::converged) return report;
+        Cost cost = report.cost;
+        report = {.outcome = takeSteps(count - 2, cost), .step = h()};
+        if (report.outcome == Outcome::converged) {
+            toKnown();
+            if (!isFinite(known_)) report.outcome = Outcome::notFinite;
+        }
+        if (report.outcome == Outcome::converged) {
+            std::copy(known_.begin(), known_.end(), state.x.begin());
+            state.node += count - 2;
+            state.t = clock.at(state.node);
+            report = advance(state, clock.at(state.node + 1));
+            cost += report.cost;
+        } else {
+            isKnown_ = false;
+        }
+        report.cost = cost;
+        return report;
+    }
     bool checkpoint(Archive& archive) override {
         const bool isWhole = FieldMarch::checkpoint(archive);
         archive(isKnown_, hasForce_, known_, U_, V_, G_);
@@ -53,6 +90,7 @@ private:
         turns_.clear();
         for (const SplittingStage& s : stages_)
             if (!s.isKick && !turnOver(s.fraction)) turns_.push_back(makeTurn(s.fraction));
+        if (!stages_.front().isKick && !turnOver(joined_)) turns_.push_back(makeTurn(joined_));
         isKnown_ = false;
     }
     Turn makeTurn(double fraction) const {
@@ -85,26 +123,60 @@ private:
             hasForce_ = false;
         }
         isKnown_ = false;  // until the step is done
-        if (stop().stop_requested()) return Outcome::stopped;
-        for (const SplittingStage& s : stages_) {
-            if (!s.isKick) {
-                move(s.fraction, U_, V_);
-                hasForce_ = false;
-                continue;
-            }
-            // The first kick has the force of the last one of the step before.
-            if (!hasForce_) {
-                evaluateForce();
-                report.cost.evaluations += static_cast<long long>(points_);
-            }
-            hasForce_ = true;
-            kick(s.fraction, V_);
-        }
-        toNodes(U_.data(), next);
-        toNodes(V_.data(), next + size);
-        std::copy_n(next, 2 * size, known_.data());
+        const Outcome outcome = takeSteps(1, report.cost);
+        if (outcome != Outcome::converged) return outcome;
+        toKnown();
+        std::copy(known_.begin(), known_.end(), next);
+        return outcome;
+    }
+    void toKnown() {
+        toNodes(U_.data(), known_.data());
+        toNodes(V_.data(), known_.data() + n());
         isKnown_ = true;
+    }
+    /// A kick is done together with the free motion that follows it.
+    Outcome takeSteps(long long count, Cost& cost) {
+        Due due;
+        for (long long i = 0; i < count; ++i) {
+            if (stop().stop_requested()) return Outcome::stopped;
+            for (std::size_t k = 0; k < stages_.size(); ++k) {
+                const SplittingStage& s = stages_[k];
+                if (!s.isKick) {
+                    if (k > 0 && due.motion != 0) settle(due);
+                    due.motion += s.fraction;  // the first to the last one of the step before, if any
+                    continue;
+                }
+                if (due.motion != 0) settle(due);
+                // The first kick has the force of the last one of the step before.
+                if (!hasForce_) {
+                    evaluateForce();
+                    cost.evaluations += static_cast<long long>(points_);
+                }
+                hasForce_ = true;
+                due.kick += s.fraction;
+            }
+        }
+        settle(due);
         return Outcome::converged;
+    }
+    /// What U_ and V_ are still to go through: a kick by G_, then a free motion; parts of a step.
+    struct Due {
+        double kick = 0, motion = 0;
+    };
+    void settle(Due& due) {
+        static const auto both = ForThisMachine<&kickAndTurnRows>::call();
+        if (due.motion == 0) {
+            if (due.kick != 0) kick(due.kick, V_);
+        } else {
+            const Turn& by = *turnOver(due.motion);
+            if (due.kick != 0)
+                both(due.kick * h(), G_.data(), U_.data(), V_.data(), by.own.data(), by.other.data(),
+                     by.back.data(), U_.size());
+            else
+                move(due.motion, U_, V_);
+            hasForce_ = false;
+        }
+        due = {};
     }
     void evaluateForce() {
         toPoints(U_.data());
@@ -167,6 +239,7 @@ private:
     }
 
     std::vector<SplittingStage> stages_;
+    double joined_;
     std::size_t kicks_ = 0;
     std::vector<Turn> turns_;
     bool isKnown_ = false, hasForce_ = false;  ///< G_ is that of U_

@@ -5,10 +5,14 @@
 #include <utility>
 
 namespace extremal {
-namespace {
+
+FieldMarch::FieldMarch(std::shared_ptr<const SpatialForm> form, double step)
+    : form_(std::move(form)), n_(static_cast<std::size_t>(form_->size())), h_(step), other_(2 * n_) {}
+
+FieldMarch::FieldMarch(std::size_t n, double step) : n_(n), h_(step), other_(2 * n_) {}
 
 /// A sum of 0 x is NaN where any x is not finite; four sums do not wait for each other.
-bool isFiniteAll(const std::vector<double>& x) {
+bool FieldMarch::isFinite(const std::vector<double>& x) {
     double sum[4] = {0, 0, 0, 0};
     std::size_t i = 0;
     for (; i + 4 <= x.size(); i += 4)
@@ -16,13 +20,6 @@ bool isFiniteAll(const std::vector<double>& x) {
     for (; i < x.size(); ++i) sum[0] += 0 * x[i];
     return sum[0] + sum[1] + sum[2] + sum[3] == 0;
 }
-
-}  // namespace
-
-FieldMarch::FieldMarch(std::shared_ptr<const SpatialForm> form, double step)
-    : form_(std::move(form)), n_(static_cast<std::size_t>(form_->size())), h_(step), other_(2 * n_) {}
-
-FieldMarch::FieldMarch(std::size_t n, double step) : n_(n), h_(step), other_(2 * n_) {}
 
 void FieldMarch::setStep(double h) {
     h_ = h;
@@ -36,7 +33,7 @@ StepReport FieldMarch::advance(State& state, double until) {
     isPrepared_ = true;
     begin_ = state.t;
     report.outcome = step(state.x.data(), other_.data(), report);
-    if (report.outcome == Outcome::converged && !isChecked_ && !isFiniteAll(other_))
+    if (report.outcome == Outcome::converged && !isChecked_ && !isFinite(other_))
         report.outcome = Outcome::notFinite;
     if (report.outcome != Outcome::converged) return report;
     state.x.swap(other_);

@@ -53,6 +53,8 @@ protected:
     /// Whether number i of u stays as it is.
     virtual bool isHeld(std::size_t i) const;
 
+    static bool isFinite(const std::vector<double>& x);
+
     std::size_t n() const { return n_; }
     double h() const { return h_; }
     /// Of the level that the last step began at, or the one under way.

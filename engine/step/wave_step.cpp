@@ -97,12 +97,50 @@ StepReport WaveStep::advance(State& state, double until) {
         forget();
         return report;
     }
+    ++state.node;
+    handOut(state, until);
+    return report;
+}
+
+void WaveStep::handOut(State& state, double until) {
     rotatePhases(reinterpret_cast<const double*>(v_.data()),
                  -shift_ * (until - origin_) / hamiltonian_->hbar(), handedOut_.data(), v_.size());
-    std::memcpy(state.x.data(), handedOut_.data(), bytes);
-    ++state.node;
+    std::copy(handedOut_.begin(), handedOut_.end(), state.x.begin());
     state.t = endTime_ = until;
+}
+
+/// The first step makes v of the state, the last one leaves what can be asked of it.
+StepReport WaveStep::advanceOver(State& state, long long count, const Clock& clock) {
+    if (count < 3 || !memoryParts().empty()) return advanceByNodes(*this, state, count, clock);
+    const StepReport first = advance(state, clock.at(state.node + 1));
+    if (first.outcome != Outcome::converged) return first;
+    std::copy(v_.begin(), v_.end(), before_.begin());
+    StepReport report;
+    stepOver(state.t, v_.data(), count - 2, state.memory, report);
+    Cost cost = first.cost;
+    cost += report.cost;
+    if (report.outcome == Outcome::converged) {
+        state.node += count - 2;
+        handOut(state, clock.at(state.node));
+        report = advance(state, clock.at(state.node + 1));
+        cost += report.cost;
+    } else {
+        std::copy(before_.begin(), before_.end(), v_.begin());
+        forget();
+    }
+    report.cost = cost;
     return report;
+}
+
+void WaveStep::stepOver(double t, Complex* v, long long count, std::vector<double>& memory,
+                        StepReport& report) {
+    Cost cost;
+    for (long long i = 0; i < count && report.outcome == Outcome::converged; ++i) {
+        report = {};
+        step(t + static_cast<double>(i) * h_, v, memory, report);
+        cost += report.cost;
+    }
+    report.cost = cost;
 }
 
 bool WaveStep::checkpoint(Archive& archive) {

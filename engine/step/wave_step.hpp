@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "engine/integrator/integrator.hpp"
+#include "engine/integrator/skips_nodes.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal {
 
-class WaveStep : public Integrator {
+class WaveStep : public Integrator, public SkipsNodes {
 public:
     /// `shift`: Ec, or NaN for that of the first state that is seen.
     WaveStep(std::shared_ptr<const Hamiltonian> hamiltonian, double step, double shift);
@@ -26,6 +26,7 @@ public:
     void setStep(double h) final;
     void begin(State& state) final;
     StepReport advance(State& state, double until) final;
+    StepReport advanceOver(State& state, long long count, const Clock& clock) final;
     /// A shorter step from the state before: as accurate as the scheme itself. Made on each use.
     void denseOutput(double tau, std::span<double> x) const final;
     /// A linear step of a one-step scheme is its own tangent map.
@@ -49,6 +50,9 @@ protected:
     virtual void forget() {}
     /// v(t) -> v(t + dt). `memory`: of the state, moved on as well.
     virtual void step(double t, Complex* v, std::vector<double>& memory, StepReport& report) = 0;
+    /// The same `count` times, for a scheme without memory that has nothing to do between its steps, or less.
+    virtual void stepOver(double t, Complex* v, long long count, std::vector<double>& memory,
+                          StepReport& report);
     /// Fills the memory of a state where a run begins; the shift is known.
     virtual void remember(State& state) const { state.memory.clear(); }
     /// The shift and the origin of the gauge that a memory was made with.
@@ -68,6 +72,8 @@ protected:
 private:
     void estimateShift(const State& state);
     void resume(const State& state);
+    /// c of v at the end of a step.
+    void handOut(State& state, double until);
 
     std::shared_ptr<const Hamiltonian> hamiltonian_;
     double h_, shift_;

@@ -5,10 +5,13 @@
 #include <limits>
 
 #include "engine/core/thread_clock.hpp"
+#include "engine/integrator/skips_nodes.hpp"
 #include "engine/run/march/motion_check.hpp"
 
 namespace extremal {
 namespace {
+
+constexpr std::size_t mostNodes = 512;  ///< of a block
 
 /// One march on its way.
 class March {
@@ -22,10 +25,12 @@ public:
           sinks_(sinks),
           isFixed_(integrator.grid() == TimeGrid::fixed),
           remembers_(remembers),
+          skipping_(isFixed_ && sinks.empty() && !motion ? dynamic_cast<SkipsNodes*>(&integrator) : nullptr),
           judge_(motion) {}
 
     MarchReport run(NodeBlock& nodes, const std::stop_token& stop, const MarchReport* soFar) {
         bool goesOn = soFar ? goOn(*soFar) : begin(nodes);
+        const std::size_t longest = skipping_ ? mostNodes : nodes.capacity();
         std::size_t blockSize = 1;
         long long taken = soFar ? state_.node : 0;
         while (goesOn && !isDone() && report_.outcome == Outcome::converged) {
@@ -41,7 +46,7 @@ public:
             const StepReport step = takeSteps(nodes, allowed);
             const double used = threadSeconds() - start;
             report_.cpuSeconds += used;
-            if (used < 5e-4) blockSize = std::min(nodes.capacity(), 2 * blockSize);
+            if (used < 5e-4) blockSize = std::min(longest, 2 * blockSize);
             if (used > 5e-3) blockSize = std::max<std::size_t>(1, blockSize / 2);
             report_.outcome = step.outcome;
             if (step.outcome != Outcome::converged) {
@@ -53,7 +58,7 @@ public:
                 if (sink.prepare && nodes.size() > 0) sink.prepare();
             checkSound(nodes);
             checkValues(nodes);
-            taken += static_cast<long long>(nodes.size());
+            taken += state_.node - before_.node;
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 const StepReport& each = nodes.report(i);
                 report_.cost += each.cost;
@@ -95,9 +100,15 @@ private:
         return grid_.ahead() * (grid_.end - state_.t) <= slack * std::abs(lastStep_);
     }
 
-    /// Up to `count` steps; the report of the last one.
+    /// Up to `count` steps; the report of the last one. Of nodes that nobody sees the last alone is made.
     StepReport takeSteps(NodeBlock& nodes, std::size_t count) {
         StepReport report;
+        if (skipping_) {
+            const long long left = std::min(static_cast<long long>(count), grid_.steps - state_.node);
+            report = skipping_->advanceOver(state_, left, grid_.clock);
+            if (report.outcome == Outcome::converged) nodes.push(state_, report);
+            return report;
+        }
         while (report.outcome == Outcome::converged && nodes.size() < count && !isDone()) {
             if (isFixed_) {
                 const auto left = static_cast<std::size_t>(std::min<long long>(
@@ -170,6 +181,7 @@ private:
     MarchGrid grid_;
     std::span<const MarchSink> sinks_;
     bool isFixed_, remembers_;
+    SkipsNodes* skipping_;  ///< null where nodes are seen, or it has them anyhow
     MotionCheck* judge_;
     double lastStep_ = 0;  ///< where times are unknowns
     State before_;         ///< where the block at hand began
@@ -193,7 +205,7 @@ void warmUp(const Integrator& integrator, const State& state, const MarchGrid& g
 MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
                   std::span<const MarchSink> sinks, const std::stop_token& stop, MotionCheck* motion,
                   const MarchReport* soFar) {
-    constexpr std::size_t numbersOfBlock = 16384, mostNodes = 512;
+    constexpr std::size_t numbersOfBlock = 16384;
     integrator.setStop(stop);
     const bool looksInside =
         std::any_of(sinks.begin(), sinks.end(), [](const MarchSink& sink) { return sink.looksInsideSteps; });

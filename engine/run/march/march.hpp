@@ -5,7 +5,9 @@
 /// the sinks in their order, so that cpuSeconds is the cost of the scheme alone. A block is long enough to be
 /// worth reading the clock and short enough for the cache and for a stop; it is one node where a sink looks
 /// inside every step, or where states are wide (they are then not copied). What an integrator prepares when a
-/// run begins is not counted. Each node is checked once for infinities and NaN.
+/// run begins is not counted. Each node is checked once for infinities and NaN. Where there is neither a sink
+/// nor a check of the motion, as in runs that are timed, nodes on the way may be skipped
+/// (integrator/skips_nodes.hpp): trouble then ends the march somewhat before the step that has it.
 #pragma once
 
 #include <functional>
