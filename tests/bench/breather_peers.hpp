@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/text/text.hpp"
+#include "engine/integrator/skips_nodes.hpp"
 #include "engine/model/wave/basis/wisdom.hpp"
 #include "engine/scene/write/codec.hpp"
 #include "engine/study/sweep.hpp"
@@ -38,9 +39,10 @@ inline void spectralBreather(std::vector<Curve>& curves, int modes) {
                                  counts(20, 600, 1.12), 0.05, [&](double steps) {
                                      const auto integrator = make(system, start, end / steps);
                                      State state = start;
-                                     for (int k = 0; k < static_cast<int>(steps); ++k)
-                                         if (advance(*integrator, state).outcome != Outcome::converged)
-                                             return failed;
+                                     if (advanceOver(*integrator, state, static_cast<long long>(steps),
+                                                     Clock{0, end / steps})
+                                             .outcome != Outcome::converged)
+                                         return failed;
                                      double error = 0;
                                      system.error.evaluate(state.x.data(), exact.data(), &error);
                                      return std::vector<double>{error};
