@@ -4,10 +4,14 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "engine/core/algebra/add_scaled.hpp"
+#include "engine/core/algebra/complex_vectors.hpp"
 #include "engine/core/algebra/dense.hpp"
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes.hpp"
@@ -39,6 +43,47 @@ inline void combineLanes(const double* table, std::size_t rows, std::size_t stag
             x.store(out + 2 * i * width + m);
             y.store(out + (2 * i + 1) * width + m);
         }
+    }
+}
+
+/// Real and imaginary parts in turn from `width` real parts followed by imaginary ones, and back.
+inline void joinParts(const double* row, std::size_t width, std::size_t n, double* to) {
+    for (std::size_t k = 0; k < n; ++k) {
+        to[2 * k] = row[k];
+        to[2 * k + 1] = row[width + k];
+    }
+}
+inline void splitParts(const double* from, std::size_t width, std::size_t n, double* row) {
+    for (std::size_t k = 0; k < n; ++k) {
+        row[k] = from[2 * k];
+        row[width + k] = from[2 * k + 1];
+    }
+}
+
+/// What acts at the nodes beside the kinetic part: rest_j + density |psi_j|^2.
+struct AtNodes {
+    const double* rest;
+    double density, scale;
+    std::size_t n;
+};
+/// psi <- scale (rest + density |psi|^2) psi; `before`: psi of the last time, and then of this one. squares:
+/// of the change, in eight sums.
+inline void applyAtNodes(AtNodes h, double* psi, double* before, double* squares) {
+    std::fill_n(squares, lanes, 0.0);
+    for (std::size_t i = 0; i < 2 * h.n / lanes * lanes; i += lanes)
+        for (std::size_t k = 0; k < lanes; ++k) {
+            const double change = psi[i + k] - before[i + k];
+            squares[k] += change * change;
+        }
+    for (std::size_t i = 2 * h.n / lanes * lanes; i < 2 * h.n; ++i)
+        squares[0] += (psi[i] - before[i]) * (psi[i] - before[i]);
+    for (std::size_t j = 0; j < h.n; ++j) {
+        const double re = psi[2 * j], im = psi[2 * j + 1],
+                     factor = h.scale * (h.rest[j] + h.density * (re * re + im * im));
+        before[2 * j] = re;
+        before[2 * j + 1] = im;
+        psi[2 * j] = factor * re;
+        psi[2 * j + 1] = factor * im;
     }
 }
 
@@ -123,8 +168,16 @@ private:
         Eigen::MatrixXcd right(s, s + 1), all(s, s + 1), end(1, s + 1);
         right.col(0).setOnes();
         right.rightCols(s) = Complex(0, -unit) * A.cast<Complex>();
+        const auto nx = static_cast<std::size_t>(hamiltonian().grid().nx);
         for (std::size_t k = 0; k < size_; ++k) {
             if (k % 512 == 0 && stop().stop_requested()) return;
+            // Waves that run to the right and to the left have the same rows.
+            const std::size_t column = k % nx, mirrored = k - column + (nx - column) % nx;
+            if (mirrored < k && hamiltonian().kinetic()[mirrored] == hamiltonian().kinetic()[k]) {
+                copyMode(mirrored, k, stages_, stageTable_);
+                copyMode(mirrored, k, 1, endTable_);
+                continue;
+            }
             const Complex y(0, unit * (hamiltonian().kinetic()[k] + inside));
             const Eigen::MatrixXcd P = Eigen::MatrixXcd::Identity(s, s) + y * A.cast<Complex>();
             all = dense::inverse<Complex>(P) * right;
@@ -144,6 +197,12 @@ private:
                 at[lanes] = rows(i, j).imag();
             }
     }
+    void copyMode(std::size_t from, std::size_t to, std::size_t rows, std::vector<double>& table) const {
+        const std::size_t numbers = 2 * rows * (stages_ + 1);  // of a mode
+        const double* const source = table.data() + from / lanes * lanes * numbers + from % lanes;
+        double* const target = table.data() + to / lanes * lanes * numbers + to % lanes;
+        for (std::size_t i = 0; i < numbers * lanes; i += lanes) target[i] = source[i];
+    }
     /// R of the next step by the polynomial through that of the last one.
     void guess() {
         if (!hasLast_) {
@@ -155,10 +214,8 @@ private:
         for (std::size_t i = 0; i < stages_; ++i) {
             double* const to = R_.data() + i * row;
             std::fill_n(to, row, 0.0);
-            for (std::size_t j = 0; j < stages_; ++j) {
-                const double weight = ahead_[i * stages_ + j], *from = last_.data() + j * row;
-                for (std::size_t m = 0; m < row; ++m) to[m] += weight * from[m];
-            }
+            for (std::size_t j = 0; j < stages_; ++j)
+                addScaled(to, ahead_[i * stages_ + j], last_.data() + j * row, row);
         }
     }
     void step(double, Complex* v, std::vector<double>&, StepReport& report) override {
@@ -166,7 +223,7 @@ private:
         constexpr double stagnation = 1e-11;
         apart(v, v_.data());
         double norm = 0;
-        for (const double each : v_) norm += each * each;
+        ComplexVectors::ofThisMachine().square(v, size_, &norm);
         guess();
         hasLast_ = false;
         report.outcome = Outcome::diverged;
@@ -230,29 +287,22 @@ private:
         hamiltonian().fourier().rawToNodes(modes_.data(), psi_.data());
         const double scale = 1 / static_cast<double>(size_),
                      density = coupling_.g / hamiltonian().grid().measure();
-        Complex* const before = nodes_.data() + i * size_;
-        double squares = 0;
-        for (std::size_t j = 0; j < size_; ++j) {
-            const double re = psi_[j].real(), im = psi_[j].imag(), a = re - before[j].real(),
-                         b = im - before[j].imag();
-            squares += a * a + b * b;
-            before[j] = psi_[j];
-            const double factor = scale * (rest_[j] + density * (re * re + im * im));
-            psi_[j] = {factor * re, factor * im};
-        }
+        std::array<double, lanes> squares{};
+        static const auto apply = ForThisMachine<&applyAtNodes>::call();
+        apply({rest_.data(), density, scale, size_}, reinterpret_cast<double*>(psi_.data()),
+              reinterpret_cast<double*>(nodes_.data() + i * size_), squares.data());
         if (turn_) turn_->add(modes_.data(), -coupling_.omega * scale, psi_.data());
         hamiltonian().fourier().rawToCoefficients(psi_.data(), modes_.data());
         apart(modes_.data(), R);
-        return squares * scale;
+        return scale * std::accumulate(squares.begin(), squares.end(), 0.0);
     }
     void apart(const Complex* from, double* row) const {
-        for (std::size_t k = 0; k < size_; ++k) {
-            row[k] = from[k].real();
-            row[width_ + k] = from[k].imag();
-        }
+        static const auto split = ForThisMachine<&splitParts>::call();
+        split(reinterpret_cast<const double*>(from), width_, size_, row);
     }
     void together(const double* row, Complex* to) const {
-        for (std::size_t k = 0; k < size_; ++k) to[k] = {row[k], row[width_ + k]};
+        static const auto join = ForThisMachine<&joinParts>::call();
+        join(row, width_, size_, reinterpret_cast<double*>(to));
     }
 
     Coupling coupling_;
