@@ -45,7 +45,7 @@ inline void solitons(PeerTable& table) {
     };
     std::vector<Curve> curves;
     for (const int degree : {2, 3, 4, 6, 8})
-        for (const double tolerance : {1e-7, 1e-10, 1e-12})
+        for (const double tolerance : {1e-4, 1e-5, 1e-7, 1e-10, 1e-12})
             curves.push_back(
                 measure("Gauss " + std::to_string(2 * degree) + ", tolerance " + formatNumber(tolerance),
                         false, counts(10, 1000, 1.2), 0.1, [&](double steps) {
