@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "engine/core/algebra/complex_vectors.hpp"
 #include "engine/solve/banded_factors.hpp"
 #include "engine/solve/banded_kernel.hpp"
 
@@ -53,8 +54,11 @@ struct BandedPoles::Impl {
     BandedSweep sweep;
     Lines l, u, p, x, y, z, residues;
     Complexes residue;
-    Complexes middle;      ///< per pole 2B x 2B, row after row
-    Complexes correction;  ///< per pole, for the first `reach` rows of both ends: 2B numbers
+    Complexes middle;  ///< per pole 2B x 2B, row after row
+    /// Per pole, for the first `reach` rows of both ends: 2B numbers. Where there are corners one, in
+    /// the order of places, and the other factor in there: r_j (1 + C P^T Z)^{-1} C, C = [0 down; up 0].
+    Complexes correction;
+    std::vector<std::array<Complex, 4>> corners;
     mutable Complexes ends;
 
     int lanes() const { return 2 * segments * poles; }
@@ -81,6 +85,7 @@ struct BandedPoles::Impl {
     void factorAny(const CyclicBand& Y, const Complexes& zeta, const Complexes& up, const Complexes& down);
     void solveMiddle() const;
     void correctCorners(Complex* v) const;
+    void correctCornersOfOne(Complex* v) const;
 };
 
 /// A bound of the factors of row r, both ends and all poles, where the band is one entry wide; 1 where there
@@ -208,24 +213,22 @@ bool BandedPoles::Impl::correctOne(const CyclicBand& Y, const Complexes& zeta, C
     double scale = 0;
     for (std::size_t j = 0; j < zeta.size(); ++j)
         scale = std::max(scale, std::abs(residue[j]) / std::abs(zeta[j]));
-    std::vector<std::array<Complex, 4>> inner;  // r_j (1 + C P^T Z)^{-1} C, C = [0 down; up 0]
     reach = 0;
     for (std::size_t j = 0; j < zeta.size(); ++j) {
         const Complex a = columns[j][0][0], b = columns[j][1][0], s = residue[j] / (1.0 - a * b * loop);
-        inner.push_back({-s * b * loop, s * down, s * up, -s * a * loop});
+        corners.push_back({-s * b * loop, s * down, s * up, -s * a * loop});
         for (std::size_t e = 0; e < 2; ++e) {
-            const double most = std::max(std::norm(inner[j][2 * e]), std::norm(inner[j][2 * e + 1]));
+            const double most = std::max(std::norm(corners[j][2 * e]), std::norm(corners[j][2 * e + 1]));
             const double least = negligible * negligible * scale * scale;
             const Complexes& g = columns[j][e];
             for (std::size_t r = static_cast<std::size_t>(reach); r < g.size(); ++r)
                 if (std::norm(g[r]) * most > least) reach = static_cast<int>(r) + 1;
         }
     }
-    for (std::size_t j = 0; j < zeta.size(); ++j)
-        for (std::size_t e = 0; e < 2; ++e)
-            for (std::size_t r = 0; r < static_cast<std::size_t>(reach); ++r)
-                for (std::size_t q = 0; q < 2; ++q)
-                    correction.push_back(columns[j][e][r] * inner[j][2 * e + q]);
+    for (const auto& both : columns) {
+        correction.insert(correction.end(), both[0].begin(), both[0].begin() + reach);
+        correction.insert(correction.end(), both[1].rend() - reach, both[1].rend());
+    }
     return true;
 }
 
@@ -235,6 +238,7 @@ void BandedPoles::Impl::factorAny(const CyclicBand& Y, const Complexes& zeta, co
     double scale = 0;
     reach = 0;
     correction.clear();
+    corners.clear();
     middle.clear();
     for (std::size_t j = 0; j < zeta.size(); ++j) {
         Complexes diagonal;
@@ -359,6 +363,20 @@ void BandedPoles::Impl::correctCorners(Complex* v) const {
     }
 }
 
+/// A band of one entry: what both ends give a column is one number.
+void BandedPoles::Impl::correctCornersOfOne(Complex* v) const {
+    const auto add = ComplexVectors::ofThisMachine().add;
+    const auto count = static_cast<std::size_t>(reach);
+    const Complex* column = correction.data();
+    for (int j = 0; j < poles; ++j) {
+        const Complex first = get(y, 0, lane(0, 0, j)), second = get(y, 0, lane(0, 1, j));
+        const std::array<Complex, 4>& m = corners[static_cast<std::size_t>(j)];
+        for (std::size_t e = 0; e < 2; ++e, column += count)
+            add(v + (e == 0 ? rows : rows - reach), -(m[2 * e] * first + m[2 * e + 1] * second), column,
+                count);
+    }
+}
+
 void BandedPoles::apply(Complex* v) const {
     const Impl& m = *impl_;
     double* values = reinterpret_cast<double*>(v);
@@ -377,7 +395,10 @@ void BandedPoles::apply(Complex* v) const {
         call(values + 2 * m.place(0, r), values + 2 * m.place(1, r), m.to[i] - r,
              m.z.data() + 2 * m.groups() * (r - m.start[i]) + 4 * s, m.sign);
     }
-    m.correctCorners(v);
+    if (m.corners.empty())
+        m.correctCorners(v);
+    else
+        m.correctCornersOfOne(v);
 }
 
 }  // namespace extremal
