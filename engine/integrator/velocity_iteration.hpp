@@ -12,8 +12,8 @@
 /// (Antonana, Makazaga and Murua, Numer. Algorithms 76 (2017)). A sweep takes the gradient of L at all nodes
 /// together, and moves
 ///     v <- v + M^-1 (p - L_v(q, v)),       q <- q_0 + sum_j mu_ij w_j v_j,
-/// M = L_vv where the iteration starts, once a step. Forces of stiffness k contract by k (h A)^2 / M, as in
-/// node_iteration.hpp, whose starting values and end these are.
+/// M = L_vv where the iteration starts, once a step; as a part of L_v it costs little beside it. Forces of
+/// stiffness k contract by k (h A)^2 / M, as in node_iteration.hpp, whose starting values and end these are.
 ///
 /// T: scalar. Arrays are d x stride, node fastest; beyond the nodes they repeat the last one.
 #pragma once
@@ -28,8 +28,8 @@
 #include "engine/action/table.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/core/text/archive.hpp"
-#include "engine/integrator/node_iteration.hpp"
-#include "engine/integrator/node_kernel.hpp"
+#include "engine/integrator/node_couplings.hpp"
+#include "engine/integrator/velocity_kernel.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/solve/correction_size.hpp"
 
@@ -44,7 +44,14 @@ public:
     /// method is as fast.
     static bool applies(const Mechanics<T>& mechanics, const Table<T>& table);
 
-    VelocityIteration(const Mechanics<T>& mechanics, const Table<T>& table, const T& h, const T& tolerance);
+    /// L' and the masses L_vv (d x d) at many nodes, otherwise as Mechanics::gradients.
+    using GradientsAndMasses = void (*)(const void*, const T* t, int nodes, const T* q, const T* v,
+                                        T* gradients, T* masses);
+
+    /// `withMasses`, of the model of `mechanics`, has the masses with the gradient of the first sweep;
+    /// without it they are from the second derivatives, all of which are evaluated for them.
+    VelocityIteration(const Mechanics<T>& mechanics, const Table<T>& table, const T& h, const T& tolerance,
+                      GradientsAndMasses withMasses = nullptr);
 
     /// As NodeIteration: solves the step from (t, q, p); carryQ and carryP are what q and p have lost to
     /// rounding.
@@ -52,6 +59,8 @@ public:
                   const std::stop_token& stop, StepReport& report);
     void increments(T* dq, T* dp, T* carryQ, T* carryP) const;
     void coefficients(Eigen::Ref<Square> Y, Eigen::Ref<Square> forces) const;
+    /// The same Y, function by function.
+    void curve(T* Y) const;
     const T& nearness() const { return nearness_; }
 
     /// Velocities at the nodes, n x d, of a step solved otherwise: the next one starts from them.
@@ -66,29 +75,25 @@ private:
 
     std::size_t at(int k, int i) const { return static_cast<std::size_t>(k * stride_ + i); }
     bool start(const T& t, const T* q, const T* p);
-    void invertMasses();
-    void kick(const T* p);
-    void drift(const T* q);
+    void evaluateMasses();
+    void evaluate(bool withMasses);
+    const T* curveOf(int k) const;
     CorrectionSize<T> measured(const T* q, const T* p) const;
 
     Mechanics<T> mechanics_;
+    GradientsAndMasses withMasses_;
     int d_, n_, stride_;
     T h_, tolerance_;
-    bool isExact_;                    ///< solve to round-off
-    Square toY_;                      ///< D^-1, (a, i): Y_a = h sum_i toY(a, i) v_i
-    Array node_;                      ///< c_i
-    Array b_, weight_;                ///< b_i; h b_i
-    Array mu_, nu_;                   ///< by columns: mu_ij; 1 - mu_ji
-    Array onward_;                    ///< by columns: weight of v_j in its extrapolation to 1 + c_i
-    Array ones_, carryQ_, carryP_;    ///< d; d x stride
+    bool isExact_;  ///< solve to round-off
+    NodeCouplings<T> couplings_;
+    VelocityKernel<T> kernel_;
+    Array weight_;                    ///< h b_i
     Array times_, V_, Q_, P_;         ///< at the nodes
-    Array moved_, kicked_;            ///< q(c_i) - q_0; p(c_i) - p_0
     Array drift_, impulse_, before_;  ///< w_j v_j; w_j F_j; the velocities of the step before
     Array gradient_, hessian_;        ///< 2d and 4d^2 x stride
     Array inverse_;                   ///< entry (k, l) of M^-1 at k * d + l, x stride
-    Array change_;                    ///< of the velocities of one coordinate
-    std::vector<SweepSize<T>> size_;  ///< of that correction and of the velocities, as increments
-    void (*sweep_)(const Sweep<T>&) = nullptr;
+    mutable Array curve_;             ///< Y of one coordinate
+    std::vector<SweepSize<T>> size_;  ///< of the last correction and of the velocities, as increments
     bool hasVelocities_ = false;
     T nearness_ = T(1);
 };
