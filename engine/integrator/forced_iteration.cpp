@@ -9,8 +9,6 @@
 namespace extremal {
 namespace {
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// A Lagrangian and its force, as what a sweep asks of a Lagrangian.
 struct LagrangianAndForce {
     Mechanics<double> mechanics;
@@ -25,6 +23,11 @@ struct LagrangianAndForce {
                           double* to) {
         const Force& force = of(p).force;
         force.withLagrangian->gradients(force.model.get(), t, nodes, q, v, to);
+    }
+    static void gradientsAndMasses(const void* p, const double* t, int nodes, const double* q,
+                                   const double* v, double* to, double* masses) {
+        const Force& force = of(p).force;
+        force.withLagrangian->gradientsAndMasses(force.model.get(), t, nodes, q, v, to, masses);
     }
     /// Of which the masses are what is asked for: those of the Lagrangian.
     static void hessians(const void* p, const double* t, int nodes, const double* q, const double* v,
@@ -49,15 +52,14 @@ std::optional<ForcedIteration> ForcedIteration::of(const Mechanics<double>& mech
     both.gradients = LagrangianAndForce::gradients;
     both.hessians = LagrangianAndForce::hessians;
     if (!VelocityIteration<double>::applies(both, table)) return {};
-    return ForcedIteration(both, table, step, policy);
+    return ForcedIteration(
+        both, table, step, policy,
+        force.withLagrangian->gradientsAndMasses ? LagrangianAndForce::gradientsAndMasses : nullptr);
 }
 
 ForcedIteration::ForcedIteration(const Mechanics<double>& both, const Table<double>& table, double step,
-                                 const SolverPolicy& policy)
-    : sweeps_(both, table, step, toleranceOf<double>(policy)), policy_(policy), h_(step) {
-    curve_ = Eigen::MatrixXd::Zero(table.unknowns(), both.dimension);
-    forces_ = Eigen::MatrixXd::Zero(table.nodes(), both.dimension);
-}
+                                 const SolverPolicy& policy, GradientsAndMasses withMasses)
+    : sweeps_(both, table, step, toleranceOf<double>(policy), withMasses), policy_(policy), h_(step) {}
 
 Outcome ForcedIteration::solve(const From& from, Eigen::VectorXd& Y, StepReport& report) {
     if (from.h != h_) sweeps_.setStep(h_ = from.h);
@@ -73,8 +75,7 @@ Outcome ForcedIteration::solve(const From& from, Eigen::VectorXd& Y, StepReport&
     }
     if (outcome == Outcome::converged) {
         nextPause_ = 1;
-        sweeps_.coefficients(curve_, forces_);
-        Eigen::Map<Rows>(Y.data(), curve_.rows(), curve_.cols()) = curve_;
+        sweeps_.curve(Y.data());
         return outcome;
     }
     sweeps_.forget();

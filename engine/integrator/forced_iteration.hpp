@@ -49,15 +49,16 @@ public:
     void checkpoint(Archive& archive) { archive(sweeps_, pause_, nextPause_); }
 
 private:
+    using GradientsAndMasses = VelocityIteration<double>::GradientsAndMasses;
+
     ForcedIteration(const Mechanics<double>& both, const Table<double>& table, double step,
-                    const SolverPolicy& policy);
+                    const SolverPolicy& policy, GradientsAndMasses withMasses);
     Outcome attempt(const From& from, StepReport& report);
 
     VelocityIteration<double> sweeps_;
     SolverPolicy policy_;
     double h_;
-    int pause_ = 0, nextPause_ = 1;   ///< steps that are left to Newton's method, now and the next time
-    Eigen::MatrixXd curve_, forces_;  ///< room
+    int pause_ = 0, nextPause_ = 1;  ///< steps that are left to Newton's method, now and the next time
 };
 
 }  // namespace extremal

@@ -43,6 +43,9 @@ struct Force {
                           double* gradients) = nullptr;
         void (*hessians)(const void*, const double* t, int nodes, const double* q, const double* v,
                          double* hessians) = nullptr;
+        /// The gradients with the masses L_vv (d x d), which have most in common with L_v.
+        void (*gradientsAndMasses)(const void*, const double* t, int nodes, const double* q, const double* v,
+                                   double* gradients, double* masses) = nullptr;
     };
     std::shared_ptr<const WithLagrangian> withLagrangian = {};
 

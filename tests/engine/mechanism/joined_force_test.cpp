@@ -49,6 +49,41 @@ private slots:
             QVERIFY(std::abs(gBoth[i] - g[i] - (i < f.size() ? f[i] : 0)) < 1e-13);
         for (std::size_t i = 0; i < h.size(); ++i)
             QVERIFY(std::abs(hBoth[i] - h[i] - (i < df.size() ? df[i] : 0)) < 1e-13);
+        std::vector<double> gWithMasses(g.size(), 7.0), masses(d * d * nodes, 7.0);
+        force.withLagrangian->gradientsAndMasses(force.model.get(), t.data(), nodes, q.data(), v.data(),
+                                                 gWithMasses.data(), masses.data());
+        for (std::size_t i = 0; i < g.size(); ++i) QVERIFY(std::abs(gWithMasses[i] - gBoth[i]) < 1e-13);
+        for (std::size_t k = 0; k < d; ++k)
+            for (std::size_t i = 0; i < d * nodes; ++i)
+                QVERIFY(std::abs(masses[k * d * nodes + i] - h[((d + k) * 2 * d + d) * nodes + i]) < 1e-13);
+    }
+
+    /// Sweeps are the same with masses that come with the gradient, and with those of all second derivatives.
+    void massesMayComeWithTheGradient() {
+        const auto endOf = [](const System& s, long long& sweeps) {
+            Discretization scheme = *namedScheme("galerkin-gauss-4");
+            scheme.solver = {"auto", {{"tolerance", 1e-10}}, {}};
+            const auto integrator = makeIntegrator(s, scheme, {0, 0.05});
+            State state{0, 0, {0.3, -0.4, 1.0, 0.5}};
+            integrator->begin(state);
+            for (int i = 0; i < 40; ++i) {
+                const StepReport report = advance(*integrator, state);
+                if (report.outcome != Outcome::converged || report.cost.linearSolves > 0) return State{};
+                sweeps += report.cost.iterations;
+            }
+            return state;
+        };
+        System apart = forced();
+        Force force = *apart.parts.find<Force>();
+        Force::WithLagrangian calls = *force.withLagrangian;
+        calls.gradientsAndMasses = nullptr;
+        force.withLagrangian = std::make_shared<Force::WithLagrangian>(calls);
+        apart.parts.set(force);
+        long long sweeps = 0, sweepsApart = 0;
+        const State state = endOf(forced(), sweeps), expected = endOf(apart, sweepsApart);
+        QVERIFY(state.x.size() == 4 && expected.x.size() == 4);
+        QCOMPARE(sweeps, sweepsApart);
+        for (std::size_t k = 0; k < 4; ++k) QVERIFY(std::abs(state.x[k] - expected.x[k]) < 1e-13);
     }
 
     /// With the calls for both, with those of each alone, and with calls for both of another Lagrangian,

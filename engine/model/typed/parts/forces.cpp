@@ -25,8 +25,8 @@ struct ForceModel {
         std::size_t output;
     };
     std::vector<Entry> entries;
-    /// With the Lagrangian: L_q + F and L_v, and their derivatives, 2d x 2d.
-    Tape gradients, hessians;
+    /// With the Lagrangian: L_q + F and L_v, and their derivatives, 2d x 2d; L_vv, d x d, behind the former.
+    Tape gradients, hessians, gradientsAndMasses;
     std::vector<std::size_t> places;  ///< of each output of `hessians`
     std::vector<double> constants;    ///< the entries that have none
 };
@@ -68,6 +68,16 @@ void gradientsWithForce(const void* p, const double* t, int nodes, const double*
     const ForceModel& m = forceModel(p);
     runNodes(m.gradients, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
         value.store(gradients + static_cast<int>(k) * nodes + i);
+    });
+}
+
+void gradientsAndMassesWithForce(const void* p, const double* t, int nodes, const double* q, const double* v,
+                                 double* gradients, double* masses) {
+    const ForceModel& m = forceModel(p);
+    const int first = 2 * m.d;
+    runNodes(m.gradientsAndMasses, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
+        const int output = static_cast<int>(k);
+        value.store(output < first ? gradients + output * nodes + i : masses + (output - first) * nodes + i);
     });
 }
 
@@ -183,6 +193,12 @@ void joinLagrangian(const Formula& formula, Roots& roots, const ForceNodes& forc
             second.push_back(node);
         }
     model.gradients = roots.tape(first);
+    for (int i = d; i < n; ++i)
+        for (int j = d; j < n; ++j) {
+            const int row = std::max(i, j), column = std::min(i, j);
+            first.push_back(here[placeOf(n + row * (row + 1) / 2 + column)]);
+        }
+    model.gradientsAndMasses = roots.tape(first);
     model.hessians = roots.tape(second);
 }
 
@@ -351,7 +367,8 @@ std::optional<Force> forceOf(const Settings& settings, const Formula& formula,
         joinLagrangian(formula, roots, nodes, *model);
         made.withLagrangian = std::make_shared<Force::WithLagrangian>(
             Force::WithLagrangian{mechanics.model.get(), ForThisMachine<&gradientsWithForce>::call(),
-                                  ForThisMachine<&hessiansWithForce>::call()});
+                                  ForThisMachine<&hessiansWithForce>::call(),
+                                  ForThisMachine<&gradientsAndMassesWithForce>::call()});
     }
     auto entries = std::make_shared<Force::Entries>();
     for (const ForceModel::Entry& e : model->entries) entries->first.push_back({e.i, e.j});
