@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/core/algebra/dense.hpp"
@@ -63,33 +64,34 @@ class DenseEquations final : public MechanismEquations {
     using Rows = Mechanism::Rows;
 
 public:
-    DenseEquations(const Mechanism& mechanism, const MechanismCurve& curve)
-        : mechanics_(mechanism.mechanics()),
+    DenseEquations(const Mechanism& mechanism, SharedCurve shared)
+        : shared_(std::move(shared)),
+          mechanics_(mechanism.mechanics()),
           constraint_(mechanism.constraint()),
           force_(mechanism.force()),
-          curve_(curve),
+          curve_(*shared_),
           n_(mechanism.constraints()),
           holonomic_(mechanism.holonomic()),
-          places_(curve.places, {curve.atPlaces, {}}, curve.d),
-          ofImpulses_(ones(), {curve.atPlaces, {}}),
+          places_(curve_.places, {curve_.atPlaces, {}}, curve_.d),
+          ofImpulses_(ones(), {curve_.atPlaces, {}}),
           nodal_(nodalCurve(mechanism)),
-          impulsesQ_(pairs(ofImpulses_.value(), curve.atPlaces)),
-          inside_(curve.atLagrangian.rule.c, curve.atLagrangian.at, curve.d),
-          ofInside_(curve.atLagrangian.rule.b, curve.atLagrangian.at),
-          insideQq_(pairs(ofInside_.value(), curve.atLagrangian.at.value)),
-          insideQv_(pairs(ofInside_.value(), curve.atLagrangian.at.slope)),
-          insideVq_(pairs(ofInside_.slope(), curve.atLagrangian.at.value)),
-          insideVv_(pairs(ofInside_.slope(), curve.atLagrangian.at.slope)),
-          isForcedInside_(curve.areForcesInside()),
-          forced_(curve.atForces.rule.c, curve.atForces.at, curve.d),
-          ofForces_(curve.atForces.rule.b, curve.atForces.at),
-          forcesQ_(pairs(ofForces_.value(), curve.atForces.at.value)),
-          forcesV_(pairs(ofForces_.value(), curve.atForces.at.slope)),
-          ofRolling_(ones(), {curve.atRolling, {}}),
-          rollingQ_(pairs(ofRolling_.value(), curve.atRolling)),
-          lu_(nodal_ ? 0 : curve.unknowns() * (curve.d + n_)) {
+          impulsesQ_(pairs(ofImpulses_.value(), constraint_ ? curve_.atPlaces : none())),
+          inside_(curve_.atLagrangian.rule.c, curve_.atLagrangian.at, curve_.d),
+          ofInside_(curve_.atLagrangian.rule.b, curve_.atLagrangian.at),
+          insideQq_(pairs(ofInside_.value(), curve_.atLagrangian.at.value)),
+          insideQv_(pairs(ofInside_.value(), curve_.atLagrangian.at.slope)),
+          insideVq_(pairs(ofInside_.slope(), curve_.atLagrangian.at.value)),
+          insideVv_(pairs(ofInside_.slope(), curve_.atLagrangian.at.slope)),
+          isForcedInside_(curve_.areForcesInside()),
+          forced_(curve_.atForces.rule.c, curve_.atForces.at, curve_.d),
+          ofForces_(curve_.atForces.rule.b, curve_.atForces.at),
+          forcesQ_(pairs(ofForces_.value(), isForcedInside_ ? none() : curve_.atForces.at.value)),
+          forcesV_(pairs(ofForces_.value(), isForcedInside_ ? none() : curve_.atForces.at.slope)),
+          ofRolling_(ones(), {curve_.atRolling, {}}),
+          rollingQ_(pairs(ofRolling_.value(), mechanism.rolling() ? curve_.atRolling : none())),
+          lu_(nodal_ ? 0 : curve_.unknowns() * (curve_.d + n_)) {
         const int d = curve_.d, m = curve_.unknowns();
-        if (mechanism.rolling()) rolling_.emplace(*mechanism.rolling(), curve);
+        if (mechanism.rolling()) rolling_.emplace(*mechanism.rolling(), curve_);
         residual_ = Vector::Zero(m * (d + n_));
         impulse_ = masses_ = Vector::Zero(d);
         z_ = Vector::Zero((m + 1) * d);
@@ -195,6 +197,7 @@ private:
         if (mechanism.rolling() || n_ == 0 || !NullSpaceLu::isWorthwhile(curve_.d, n_)) return {};
         return NodalCurve(curve_, ofImpulses_.value(), n_);
     }
+    static Matrix none() { return {}; }  ///< where there is nothing to differentiate
     /// Of the functions that the matrix is of.
     NodePairs pairs(const Matrix& tests, const Matrix& functions) const {
         return nodal_ ? NodePairs(nodal_->testing(tests), nodal_->curves(functions))
@@ -383,11 +386,12 @@ private:
         }
     }
 
+    SharedCurve shared_;
     Mechanics<double> mechanics_;
     std::optional<Constraint> constraint_;
     std::optional<Force> force_;
     std::optional<RollingRows> rolling_;
-    MechanismCurve curve_;
+    const MechanismCurve& curve_;
     int n_, holonomic_;
     NodeLanes places_;                         ///< e_j
     NodeTests ofImpulses_;                     ///< at e_j, j < m
@@ -420,8 +424,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<MechanismEquations> denseEquations(const Mechanism& mechanism, const MechanismCurve& curve) {
-    return std::make_unique<DenseEquations>(mechanism, curve);
+std::unique_ptr<MechanismEquations> denseEquations(const Mechanism& mechanism, SharedCurve curve) {
+    return std::make_unique<DenseEquations>(mechanism, std::move(curve));
 }
 
 }  // namespace extremal

@@ -7,6 +7,6 @@
 
 namespace extremal {
 
-std::unique_ptr<MechanismEquations> denseEquations(const Mechanism& mechanism, const MechanismCurve& curve);
+std::unique_ptr<MechanismEquations> denseEquations(const Mechanism& mechanism, SharedCurve curve);
 
 }  // namespace extremal

@@ -5,14 +5,14 @@
 
 #include "engine/core/algebra/dense.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/quadrature/rule.hpp"
+#include "engine/quadrature/known_rules.hpp"
 
 namespace extremal {
 
 MechanismCurve::MechanismCurve(const Table<double>& ofStep, const MechanismRules& rules, int dimension)
     : table(ofStep), d(dimension), isRollingAtGauss(rules.isRollingAtGauss) {
     const int m = unknowns();
-    const Rule<double> nodes = lobatto<double>(m + 1);
+    const Rule<double>& nodes = knownLobatto(m + 1);
     places = nodes.c;
     weights = nodes.b;
     atPlaces = samples(places).value;
@@ -28,7 +28,7 @@ MechanismCurve::MechanismCurve(const Table<double>& ofStep, const MechanismRules
         parts.push_back(static_cast<double>(k) / (partsPerFunction * m));
     atParts = samples(parts);
     fit = dense::inverse<double>(ends);
-    atGauss = {gauss<double>(m), {}};
+    atGauss = {knownGauss(m), {}};
     if (isRollingAtGauss) {
         rolling = atGauss.rule;
     } else {

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -80,5 +81,8 @@ struct MechanismCurve {
     }
     Nodes atGauss;  ///< the m Gauss nodes, where rolling conditions hold
 };
+
+/// One curve for all that a step is made of, and for its copies: it never changes.
+using SharedCurve = std::shared_ptr<const MechanismCurve>;
 
 }  // namespace extremal

@@ -35,16 +35,17 @@ public:
     MechanismStep(const Parts& parts, const Table<double>& table, const MechanismRules& rules, double step,
                   const SolverPolicy& policy, LinkedAlgebra algebra)
         : mechanism_(parts, algebra),
-          curve_(table, rules, mechanism_.dimension()),
+          shared_(std::make_shared<MechanismCurve>(table, rules, mechanism_.dimension())),
+          curve_(*shared_),
           equations_(mechanism_.linked() ? linkedEquations(*mechanism_.linked(), curve_)
-                                         : denseEquations(mechanism_, curve_)),
+                                         : denseEquations(mechanism_, shared_)),
           policy_(policy),
           tolerance_(toleranceOf<double>(policy)),
           h_(step),
           continues_(curve_.table.extrapolation.size() > 0),
           said_(parts, mechanism_.dimension()),
           correction_(mechanism_.dimension(), curve_.unknowns(), mechanism_.constraints()),
-          adjoint_(mechanism_, curve_) {
+          adjoint_(mechanism_, shared_) {
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
         Y_ = Vector::Zero(m * d);
         impulses_ = Vector::Zero(m * n);
@@ -444,7 +445,8 @@ private:
     }
 
     Mechanism mechanism_;
-    MechanismCurve curve_;
+    SharedCurve shared_;
+    const MechanismCurve& curve_;
     OwnCopy<MechanismEquations> equations_;
     SolverPolicy policy_;
     double tolerance_, h_;

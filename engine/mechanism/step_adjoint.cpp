@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/mechanism/step_adjoint.hpp"
 
+#include <utility>
+
 namespace extremal {
 
-StepAdjoint::StepAdjoint(const Mechanism& mechanism, const MechanismCurve& curve)
-    : mechanism_(mechanism), curve_(curve) {
+StepAdjoint::StepAdjoint(const Mechanism& mechanism, SharedCurve curve)
+    : mechanism_(mechanism), shared_(std::move(curve)), curve_(*shared_) {
     const int d = curve_.d, m = curve_.unknowns(), n = mechanism_.constraints();
     test_ = pulled_ = Vector::Zero((m + 1) * d);
     solution_ = Vector::Zero(m * (d + n));

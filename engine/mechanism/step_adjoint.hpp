@@ -25,7 +25,7 @@ class StepAdjoint {
 public:
     using Vector = Eigen::VectorXd;
 
-    StepAdjoint(const Mechanism& mechanism, const MechanismCurve& curve);
+    StepAdjoint(const Mechanism& mechanism, SharedCurve curve);
 
     /// A step of length h from t along z = (q_0, Y), with the impulses Lambda.
     struct Step {
@@ -60,7 +60,8 @@ private:
     void spread(const Eigen::MatrixXd& at, int row);
 
     Mechanism mechanism_;
-    const MechanismCurve curve_;
+    SharedCurve shared_;
+    const MechanismCurve& curve_;
     Vector test_, pulled_;  ///< test_: eta, as z
     Vector solution_;       ///< (w, mu)
     Vector byImpulses_, value_, byTime_;
