@@ -4,7 +4,8 @@
 ///
 /// Codes for the same equations, four coordinates and three rods, are IDA (ida_four_bar.hpp) and explicit
 /// integrators of the accelerations (index 1), whose drift off the rods is part of their error; RATTLE takes
-/// no forces beside those of a potential. "minimal" is the same motion in the angle of the crank alone, which
+/// no forces beside those of a potential. Our scheme on the rods by hand (four_bar_rods.hpp) shows what it
+/// could cost in these coordinates. "minimal" is the same motion in the angle of the crank alone, which
 /// an expert derives for this one mechanism: a row of its own. There Gauss collocation of the angle and its
 /// momentum by hand, which is our scheme in this angle, shows what no code of the scheme is much below.
 #pragma once
@@ -21,6 +22,7 @@
 #include "tests/bench/adaptive_peers.hpp"
 #include "tests/bench/first_order_peers.hpp"
 #include "tests/bench/four_bar.hpp"
+#include "tests/bench/four_bar_rods.hpp"
 #include "tests/bench/ida_four_bar.hpp"
 #include "tests/bench/peer_table.hpp"
 #include "tests/bench/preset_scene.hpp"
@@ -89,7 +91,7 @@ inline void addFourBarSchemes(std::vector<Curve>& curves, const std::string& pre
                                  false, steps, 0.2,
                                  [&](double n) { return known.errorBy(system, from, schemeOf(scheme), n); }));
     };
-    for (const double tolerance : {0.0, 1e-11, 1e-9, 1e-8, 1e-6, 1e-5})
+    for (const double tolerance : {0.0, 1e-14, 1e-13, 1e-11, 1e-9, 1e-8, 1e-6, 1e-5, 1e-4})
         for (const int s : {2, 3, 4, 6, 8})
             add("Gauss " + std::to_string(2 * s), *namedScheme("galerkin-gauss-" + std::to_string(s)),
                 tolerance);
@@ -178,12 +180,38 @@ inline void addFourBarByGauss(std::vector<Curve>& curves, const KnownFourBar& kn
     add.operator()<8>();
 }
 
+template <std::size_t stages>
+void fourBarOnRods(OnRods* state, double end, double n, double tolerance) {
+    integrateOnRods<stages>(*state, end, n, tolerance);
+}
+
+/// The same steps again.
+inline void addFourBarOnRods(std::vector<Curve>& curves, const KnownFourBar& known) {
+    const auto add = [&]<std::size_t stages> {
+        for (const double tolerance : {1e-14, 1e-11, 1e-8, 1e-6, 1e-4})
+            curves.push_back(measure(
+                "Gauss " + std::to_string(2 * stages) + " on rods by hand to " + formatNumber(tolerance),
+                true, counts(150, 2e4, 1.25), 0.1, [&](double n) {
+                    OnRods state{{known.start[0], known.start[1], known.start[2], known.start[3]}, 0};
+                    ForThisMachine<&fourBarOnRods<stages>>::call()(&state, known.preset.end, std::floor(n),
+                                                                   tolerance);
+                    return known.error(state.u);
+                }));
+    };
+    add.operator()<2>();
+    add.operator()<3>();
+    add.operator()<4>();
+    add.operator()<6>();
+    add.operator()<8>();
+}
+
 inline void fourBar(PeerTable& table) {
     const KnownFourBar known;
     std::vector<Curve> curves;
     addFourBarSchemes(curves, "", known, known.preset.system, known.preset.start);
     addFourBarPeers(curves, known);
     addFourBarByGauss(curves, known);
+    addFourBarOnRods(curves, known);
     std::vector<Curve> same = curves;
     std::erase_if(same, [](const Curve& c) { return c.name.starts_with("minimal"); });
     table.add("P13 four-bar", same, 0);
