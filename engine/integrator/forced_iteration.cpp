@@ -42,8 +42,8 @@ struct LagrangianAndForce {
 std::optional<ForcedIteration> ForcedIteration::of(const Mechanics<double>& mechanics, const Force& force,
                                                    const Table<double>& table, double step,
                                                    const SolverPolicy& policy) {
-    const bool isForNewton = policy.method == SolverMethod::newton || policy.tolerance <= 0;
-    if (isForNewton || !force.withLagrangian || force.withLagrangian->lagrangian != mechanics.model.get())
+    if (policy.method == SolverMethod::newton || !force.withLagrangian ||
+        force.withLagrangian->lagrangian != mechanics.model.get())
         return {};
     Mechanics<double> both;
     both.dimension = mechanics.dimension;

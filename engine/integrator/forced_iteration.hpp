@@ -2,7 +2,7 @@
 /// The step of a table on a Lagrangian with a force, by fixed-point iteration on the velocities at the nodes
 /// (velocity_iteration.hpp): d'Alembert's principle has F wherever the action has L_q, and nothing else
 /// changes. Newton's method for the same step takes second derivatives and a matrix of all nodes, for which
-/// there are some sweeps over them: to a tolerance these cost two thirds of that, to round-off as much.
+/// there are ten sweeps over them: to a tolerance these cost a third of that, to round-off half.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,8 +23,8 @@ namespace extremal {
 
 class ForcedIteration {
 public:
-    /// Where force and Lagrangian are evaluated together, the table is of that kind and the policy has a
-    /// tolerance; nothing else.
+    /// Where force and Lagrangian are evaluated together and the table is of that kind, unless the policy
+    /// asks for Newton's method; nothing else.
     static std::optional<ForcedIteration> of(const Mechanics<double>& mechanics, const Force& force,
                                              const Table<double>& table, double step,
                                              const SolverPolicy& policy);
