@@ -75,7 +75,7 @@ public:
           places_(curve_.places, {curve_.atPlaces, {}}, curve_.d),
           ofImpulses_(ones(), {curve_.atPlaces, {}}),
           nodal_(nodalCurve(mechanism)),
-          impulsesQ_(pairs(ofImpulses_.value(), constraint_ ? curve_.atPlaces : none())),
+          impulsesQ_(pairs(ofImpulses_.value(), constraint_ && !nodal_ ? curve_.atPlaces : none())),
           inside_(curve_.atLagrangian.rule.c, curve_.atLagrangian.at, curve_.d),
           ofInside_(curve_.atLagrangian.rule.b, curve_.atLagrangian.at),
           insideQq_(pairs(ofInside_.value(), curve_.atLagrangian.at.value)),
@@ -329,6 +329,19 @@ private:
     }
     int entry(int row, int column) const { return 2 * curve_.d * row + column; }
 
+    /// Of the reactions, by the places that they belong to: of nodal functions each is one entry.
+    bool addCurvature(const double* data) {
+        if (!nodal_) return impulsesQ_.add(data, 1, block_);
+        const int m = curve_.unknowns();
+        bool isThere = false;
+        for (int j = 1; j < m; ++j) {
+            block_(j, j - 1) += data[j];
+            block_(m, j - 1) += data[j];
+            isThere |= data[j] != 0;
+        }
+        return isThere;
+    }
+
     /// dR(k) / dY(l) and dA(k) / dY(l), of all functions.
     void addPair(int k, int l) {
         const int d = curve_.d, m = curve_.unknowns();
@@ -342,7 +355,7 @@ private:
             isPresent |= forcesQ_.add(byState_.col(entry(k, l)).data(), h_, block_);
             isPresent |= forcesV_.add(byState_.col(entry(k, d + l)).data(), 1, block_);
         }
-        if (constraint_) isPresent |= impulsesQ_.add(curvatures_.col(k * d + l).data(), 1, block_);
+        if (constraint_) isPresent |= addCurvature(curvatures_.col(k * d + l).data());
         if (rolling_) isPresent |= rollingQ_.add(rollingCurvatures_.col(k * d + l).data(), 1, block_);
         if (!isPresent) return;
         for (int b = 0; b < m; ++b) {
