@@ -121,29 +121,37 @@ struct OnRods {
     double momentum;
 };
 
+/// Sums over s nodes.
+template <std::size_t s>
+struct OverNodes {
+    static Lanes product(const std::array<Lanes, 8>& columns, const Lanes& x) {
+        Lanes sum(0.0);
+        for (std::size_t j = 0; j < s; ++j) sum += columns[j] * Lanes(x.lane[j]);
+        return sum;
+    }
+    static double dot(const Lanes& a, const Lanes& b) {
+        double sum = 0;
+        for (std::size_t j = 0; j < s; ++j) sum += a.lane[j] * b.lane[j];
+        return sum;
+    }
+    /// Of nodes 0..s-1, from the start's and those of nodes 1..s.
+    static Lanes behind(double first, const Lanes& nodes) {
+        Lanes all(first);
+        for (std::size_t j = 1; j < 8; ++j) all.lane[j] = nodes.lane[j - 1];
+        return all;
+    }
+};
+
 /// n steps, each until no place moves by more than `tolerance`, or at round-off.
 template <std::size_t s>
 void integrateOnRods(OnRods& state, double end, double n, double tolerance) {
     using Four = std::array<Lanes, 4>;
+    constexpr auto product = &OverNodes<s>::product;
+    constexpr auto dot = &OverNodes<s>::dot;
+    constexpr auto behind = &OverNodes<s>::behind;
     const RodTables& tables = RodTables::of<s>();
     const double h = end / n;
     constexpr double m1 = FourBar::m1, m2 = FourBar::m2, g = FourBar::g;
-    const auto product = [](const std::array<Lanes, 8>& columns, const Lanes& x) {
-        Lanes sum(0.0);
-        for (std::size_t j = 0; j < s; ++j) sum += columns[j] * Lanes(x.lane[j]);
-        return sum;
-    };
-    const auto dot = [](const Lanes& a, const Lanes& b) {
-        double sum = 0;
-        for (std::size_t j = 0; j < s; ++j) sum += a.lane[j] * b.lane[j];
-        return sum;
-    };
-    /// Of nodes 0..s-1, from the start's and those of nodes 1..s.
-    const auto behind = [](double first, const Lanes& nodes) {
-        Lanes all(first);
-        for (std::size_t j = 1; j < 8; ++j) all.lane[j] = nodes.lane[j - 1];
-        return all;
-    };
     RodTables::Form rocker;  // m2 l_a' l_b' / h - damping l_a l_b'
     for (std::size_t j = 0; j < s; ++j)
         rocker.column[j] =
@@ -153,7 +161,7 @@ void integrateOnRods(OnRods& state, double end, double n, double tolerance) {
 
     auto& u = state.u;
     FreeOfRods<double> start(u[0], u[1], u[2], u[3]);
-    Four U;  // increments of nodes 1..s, repeated beyond
+    Four U;  // increments of nodes 1..s, 0 beyond
     for (std::size_t k = 0; k < 4; ++k) U[k] = Lanes(0.0);
     for (double step = 0; step < n; ++step) {
         const auto place = [&](std::size_t k) { return Lanes(u[k]) + U[k]; };
