@@ -131,13 +131,6 @@ protected:
         if (!call(t, q, p, dq, dp)) report_.outcome = Outcome::singular;
     }
 
-    Mechanics<double> mechanics_;
-    double h_;
-    Vector q0_, p0_, q1_, p1_;
-    double startTime_ = 0, endTime_ = 0;
-    StepReport report_;
-
-private:
     /// By the exponents alone, which a compiler can look at side by side.
     static bool isFinite(const Vector& x) {
         constexpr std::uint64_t exponent = 0x7ff0000000000000, carry = 0x0010000000000000;
@@ -146,6 +139,13 @@ private:
         return any >> 63 == 0;
     }
 
+    Mechanics<double> mechanics_;
+    double h_;
+    Vector q0_, p0_, q1_, p1_;
+    double startTime_ = 0, endTime_ = 0;
+    StepReport report_;
+
+private:
     std::optional<FlowJacobian> jacobian_;  ///< made where a tangent map is asked for
     Vector velocity_;
 

@@ -12,6 +12,7 @@
 #include "engine/core/corrections.hpp"
 #include "engine/integrator/many_states.hpp"
 #include "engine/integrator/shared_force.hpp"
+#include "engine/integrator/skips_nodes.hpp"
 #include "engine/step/coordinate_watch.hpp"
 #include "engine/step/flow_method.hpp"
 
@@ -39,7 +40,10 @@ void multiply(const Eigen::MatrixXd& jacobian, bool isKick, bool isOwn, bool isI
 constexpr int many = TakesManyStates::together;
 
 template <int D>
-class Partitioned final : public FlowMethod<D>, public SharesForce, public TakesManyStates {
+class Partitioned final : public FlowMethod<D>,
+                          public SharesForce,
+                          public SkipsNodes,
+                          public TakesManyStates {
     using Base = FlowMethod<D>;
     using Vector = typename Base::Vector;
 
@@ -100,6 +104,30 @@ public:
         if (isForceFresh) std::copy_n(state.x.data(), d, forceAt_.data());
         // The last one on the common path, which leaves the dense output behind.
         return Base::advanceBlock(state, nodes, 1, clock);
+    }
+
+    /// Kicks and drifts at the ends of steps are put together.
+    StepReport advanceOver(State& state, long long count, const Clock& clock) override {
+        const auto& m = this->mechanics_;
+        if (!m.kicksAndDrifts || m.isTimeDependent || count < 3)
+            return advanceByNodes(*this, state, count, clock);
+        double *const q = state.x.data(), *const p = q + this->d();
+        this->q0_ = typename Base::View(q, this->d());
+        this->p0_ = typename Base::View(p, this->d());
+        const KicksAndDrifts<double> steps = stepsFrom(q);
+        takeJoined(steps, count - 1, q, p);
+        if (!Base::isFinite(typename Base::View(q, this->d())) ||
+            !Base::isFinite(typename Base::View(p, this->d()))) {
+            std::copy_n(this->q0_.data(), this->d(), q);
+            std::copy_n(this->p0_.data(), this->d(), p);
+            return advanceByNodes(*this, state, count, clock);
+        }
+        state.node += count - 1;
+        state.t = clock.at(state.node);
+        StepReport report = this->advance(state, clock.at(state.node + 1));
+        report.cost.evaluations +=
+            evaluations(steps.isForceKnown) + static_cast<int>(count - 2) * evaluations(steps.keepsForce());
+        return report;
     }
 
     bool advanceMany(double* x, long long steps) override {
@@ -218,6 +246,33 @@ private:
         one.isForceKnown = firstDrift_ == 0 && std::memcmp(forceAt_.data(), q, size) == 0;
         return one;
     }
+    /// `count` >= 2 such steps, the last kick or drift of each with the first one of the next.
+    void takeJoined(KicksAndDrifts<double> steps, long long count, double* q, double* p) {
+        const auto take = [&](std::span<const KickAndDrift<double>> pairs, long long times) {
+            steps.pairs = pairs;
+            steps.steps = times;
+            this->mechanics_.kicksAndDrifts(this->mechanics_.model.get(), steps, q, p, force_.data());
+            steps.isForceKnown = false;
+        };
+        const std::span<const KickAndDrift<double>> own = steps.pairs;
+        joined_.assign(own.begin(), own.end());
+        if (steps.keepsForce() && own.size() > 1) {
+            joined_.pop_back();
+            joined_.front().kick += own.back().kick;
+            take(own.first(own.size() - 1), 1);
+            take(joined_, count - 1);
+            take(own.last(1), 1);
+            std::copy_n(q, this->d(), forceAt_.data());
+        } else if (steps.firstDrift != 0 && !own.empty() && own.back().drift != 0) {
+            joined_.back().drift += steps.firstDrift;
+            take(joined_, 1);
+            steps.firstDrift = 0;
+            take(joined_, count - 2);
+            take(own, 1);
+        } else {
+            take(own, count);
+        }
+    }
     int evaluations(bool isForceKnown) const { return static_cast<int>(pairs_.size()) - isForceKnown; }
     /// The kicks and drifts of steps, each by its time.
     template <class Evaluate, class Kick, class Drift>
@@ -325,6 +380,7 @@ private:
     double firstDrift_ = 0;                    ///< of a splitting that begins with one, as a part of the step
     std::vector<KickAndDrift<double>> pairs_;  ///< what follows, likewise
     std::vector<KickAndDrift<double>> times_;  ///< the same for the step timesOf_
+    std::vector<KickAndDrift<double>> joined_;  ///< of a step between others
     double timesOf_ = 0;
     Vector dq_, dp_, start_, change_, force_, forceAt_, inverseMass_;
     double forceTime_ = 0;  ///< of force_, where forces depend on time

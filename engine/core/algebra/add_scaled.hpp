@@ -9,6 +9,8 @@
 namespace extremal {
 namespace detail {
 
+inline constexpr std::size_t fewNumbers = 8;
+
 inline void addScaledNumbers(double* y, double factor, const double* x, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) y[i] += factor * x[i];
 }
@@ -19,13 +21,16 @@ inline void addScaledProductsOf(double* y, double factor, const double* weights,
 
 }  // namespace detail
 
+/// A few numbers are not worth a call.
 inline void addScaled(double* y, double factor, const double* x, std::size_t n) {
+    if (n < detail::fewNumbers) return detail::addScaledNumbers(y, factor, x, n);
     static const auto call = ForThisMachine<&detail::addScaledNumbers>::call();
     call(y, factor, x, n);
 }
 /// y_i += (factor w_i) x_i.
 inline void addScaledProducts(double* y, double factor, const double* weights, const double* x,
                               std::size_t n) {
+    if (n < detail::fewNumbers) return detail::addScaledProductsOf(y, factor, weights, x, n);
     static const auto call = ForThisMachine<&detail::addScaledProductsOf>::call();
     call(y, factor, weights, x, n);
 }

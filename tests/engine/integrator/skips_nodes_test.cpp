@@ -19,6 +19,7 @@ namespace {
 constexpr const char* field =
     R"J({"type":"field","potential":"sine-gordon","domain":[-5,5],"boundary":"periodic","cells":24})J";
 constexpr const char* fieldStart = R"J({"u":"2*cos(pi*x/5)+0.3","u_t":"0.5*sin(pi*x/5)"})J";
+constexpr const char* stars = R"J({"q":[0.1,0.2],"p":[0.3,-0.1]})J";
 constexpr const char* packet = R"J({"psi":{"packet":"gaussian","centre":0.5}})J";
 
 struct Code {
@@ -51,6 +52,14 @@ const Code codes[] = {
     {"three levels", R"J({"type":"schrodinger","modes":16,"potential":"cos(x)"})J", packet,
      R"("scheme":"schrodinger-three-level")"},
     {"pendulum", R"J({"type":"pendulum"})J", R"J({})J", R"("scheme":"midpoint")"},
+    {"stars, kicks outside", R"J({"type":"henon-heiles"})J", stars,
+     R"("space":{"type":"free-motion","knots":"srkn-11b"})"},
+    {"stars, drifts outside", R"J({"type":"henon-heiles"})J", stars,
+     R"("space":{"type":"free-motion","knots":"blanes-moan-s10","first":"drift"})"},
+    {"stars, neither", R"J({"type":"henon-heiles"})J", stars, R"("baseline":"symplectic-euler")"},
+    {"typed sum",
+     R"J({"type":"hamiltonian","coordinates":["x"],"parameters":{},"hamiltonian":"sqrt(1+p_x^2)+x^4/4"})J",
+     R"J({"q":[0.8],"p":[0.3]})J", R"("space":{"type":"free-motion","knots":"strang"})"},
 };
 
 ResolvedScene sceneOf(const Code& code) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iterator>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -119,12 +120,15 @@ private:
                     forOperands(i, [&](std::uint32_t k) { uses[k] = 0; });
                     uses[i.to] = 0;
                 }
+        // What a run makes comes before what it leaves to the next one, which may wait for memory.
+        const auto isLeft = [&](std::uint32_t k) { return k < tape_.inputs(); };
         std::vector<std::uint32_t> order;
         for (std::uint32_t k = 0; k < uses.size(); ++k)
-            if (uses[k] > 0 && (k >= firstMade_ || (tape_.goesOn() && k < tape_.inputs())))
+            if (isLeft(k) ? tape_.goesOn() && uses[k] > 0 : k >= firstMade_ && uses[k] > 0)
                 order.push_back(k);
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::uint32_t a, std::uint32_t b) { return uses[a] > uses[b]; });
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::tuple(isLeft(a), uses[b]) < std::tuple(isLeft(b), uses[a]);
+        });
         place_.assign(uses.size(), -1);
         const int most = hasLoops() ? firstOfLoops : machineRegisters() - 2;
         for (std::size_t n = 0; n < order.size() && static_cast<int>(n) < most; ++n)

@@ -64,9 +64,9 @@ bool areApart(Instructions code, const TapeGroup& one, const TapeGroup& other) {
 TapeParts::TapeParts(const Tape& tape, std::size_t mostInLoop)
     : code(tape.code().begin(), tape.code().end()),
       outputs(tape.outputPlaces().begin(), tape.outputPlaces().end()) {
+    if (mostInLoop == 0) return;
     std::vector<TapeGroup> groups(tape.groups().begin(), tape.groups().end());
     if (tape.goesOn()) writeInPlace(groups, tape.inputs(), tape.registers());
-    if (mostInLoop == 0) return;
     moveUp(groups);
     for (const TapeGroup& g : groups) {
         const bool isLoop = g.isSideBySide();
@@ -107,7 +107,6 @@ void TapeParts::writeInPlace(std::span<const TapeGroup> groups, std::size_t inpu
         for (std::size_t at = start + count; at < code.size(); ++at) forOperands(code[at], move);
         std::for_each(outputs.begin(), outputs.end(), move);
     };
-    for (std::size_t at = 0; groups.empty() && at < code.size(); ++at) place(at, 1);
     for (const TapeGroup& g : groups) {
         if (g.isSideBySide()) place(g.first, g.count);
         for (std::uint32_t n = 0; n < g.count && !g.isSideBySide(); ++n) place(g.first + n, 1);
