@@ -16,8 +16,8 @@
 #include "engine/integrator/galerkin_step_solve.hpp"
 #include "engine/integrator/galerkin_step_sums.hpp"
 #include "engine/integrator/galerkin_step_tangent.hpp"
-#include "engine/integrator/node_iteration_build.hpp"
-#include "engine/integrator/velocity_iteration_build.hpp"
+#include "engine/integrator/sweep/node_iteration_build.hpp"
+#include "engine/integrator/sweep/velocity_iteration_build.hpp"
 
 namespace extremal {
 template <class T, int D>

@@ -16,9 +16,8 @@ public:
     virtual ~SkipsNodes() = default;
     /// Takes `count` >= 1 steps of stepSize(). The state is that of as many calls of advance() but for
     /// round-off, and what can be asked of the last step (dense output, tangent map) is what it would be
-    /// there. The report is of the last step, with the cost of as many
-    /// calls, which does not depend on how steps are put together. Trouble leaves the state at a node from
-    /// which advance() meets it.
+    /// there. The report is of the last step, with the cost of as many calls, which does not depend on how
+    /// steps are put together. Trouble leaves the state at a node from which advance() meets it.
     virtual StepReport advanceOver(State& state, long long count, const Clock& clock) = 0;
 };
 

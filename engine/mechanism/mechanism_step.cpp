@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/algebra/exact_sum.hpp"
-#include "engine/integrator/forced_iteration.hpp"
+#include "engine/integrator/sweep/forced_iteration.hpp"
 #include "engine/integrator/variation/hessian_pull.hpp"
 #include "engine/integrator/variation/transposed_step.hpp"
 #include "engine/mechanism/dense_equations.hpp"

@@ -90,9 +90,8 @@ void force(const Model& m, double t, const double* q, const double* v, double* f
 void forceAlone(const void* p, const double& t, const double* q, double* f) {
     force(self(p), t, q, nullptr, f);
 }
-void separableKicks(const void* p, const KicksAndDrifts<double>& steps, double* q, double* momentum,
-                    double* f) {
-    self(p).kicks.take(steps, q, momentum, f);
+void separableKicks(const void* model, const KicksAndDrifts<double>& by, double* q, double* p, double* f) {
+    self(model).kicks.take(by, q, p, f);
 }
 
 /// Eight nodes at a time, in the instruction set of this machine: outputs of a tape at q, v and t, output k
@@ -328,18 +327,12 @@ public:
         m.isTimeDependent = n_.graph.dependsOn({n_.value}, [&](int s) { return s == formula_.time(); });
         if (findMasses()) {
             m.isSeparable = true;
-            if (!m.isTimeDependent) {
-                model_->kicks = KickTape::ofSeparable(
-                    n_.graph, std::span(n_.gradient).first(model_->masses.size()), model_->masses);
-                m.kicksAndDrifts = separableKicks;
-            }
+            if (!m.isTimeDependent) addKicks(m);
             m.forces = NodeTapes::forces();
             m.masses = model_->masses.data();
             Over<separableVelocity>::set(m);
-        } else if (model_->isQuadratic) {
-            Over<quadraticVelocity>::set(m);
         } else {
-            Over<newtonVelocity>::set(m);
+            (model_->isQuadratic ? Over<quadraticVelocity>::set : Over<newtonVelocity>::set)(m);
         }
         if (isSum()) m.force = forceAlone;
         for (int i = 0; i < d_; ++i)
@@ -425,6 +418,12 @@ private:
         return true;
     }
 
+    void addKicks(Mechanics<double>& m) {
+        const auto forces = std::span(n_.gradient).first(model_->masses.size());
+        model_->kicks = KickTape::ofSeparable(n_.graph, forces, model_->masses);
+        m.kicksAndDrifts = separableKicks;
+    }
+
     const Formula& formula_;
     Numeric& n_;
     int d_;
@@ -483,23 +482,6 @@ TypedMechanics makeMechanics(const Formula& formula) {
     const auto symbolic = differentiate(formula);
     Numeric numeric(*symbolic, formula);
     return Builder(formula, numeric).build();
-}
-
-std::vector<LagrangianTerm<double>> makeTerms(const Formula& formula, std::string* throwing) {
-    std::vector<LagrangianTerm<double>> terms;
-    for (const auto& [name, text] : formula.terms) {
-        if (throwing) *throwing = name;
-        Formula own = formula;
-        own.text = text;
-        own.terms.clear();
-        const ResolvedFormula resolved = resolve(own);
-        const bool hasVelocities =
-            std::any_of(resolved.symbol.begin(), resolved.symbol.end(),
-                        [d = own.dimension()](int symbol) { return symbol >= d && symbol < 2 * d; });
-        const Mechanics<double> mechanics = makeMechanics(own).mechanics;
-        terms.push_back({name, mechanics.model, mechanics.jet, mechanics.gradient, hasVelocities});
-    }
-    return terms;
 }
 
 }  // namespace extremal::typed

@@ -14,7 +14,7 @@
 #include "engine/action/table.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/core/text/archive.hpp"
-#include "engine/integrator/velocity_iteration.hpp"
+#include "engine/integrator/sweep/velocity_iteration.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/model/parts/force.hpp"
 #include "engine/solve/newton_policy.hpp"

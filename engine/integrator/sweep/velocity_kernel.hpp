@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "engine/integrator/node_kernel.hpp"
+#include "engine/integrator/sweep/node_kernel.hpp"
 
 namespace extremal {
 

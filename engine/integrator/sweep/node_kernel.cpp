@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/integrator/node_kernel.hpp"
+#include "engine/integrator/sweep/node_kernel.hpp"
 
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/integrator/node_couplings_build.hpp"
-#include "engine/integrator/velocity_iteration.hpp"
+#include "engine/integrator/sweep/node_couplings_build.hpp"
+#include "engine/integrator/sweep/velocity_iteration.hpp"
 #include "engine/solve/fixed_point_policy.hpp"
 
 namespace extremal {

@@ -38,7 +38,7 @@
 #include "engine/action/table.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/core/text/archive.hpp"
-#include "engine/integrator/node_kernel.hpp"
+#include "engine/integrator/sweep/node_kernel.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/solve/correction_size.hpp"
 

@@ -10,7 +10,7 @@
 #include "engine/core/algebra/dense.hpp"
 #include "engine/core/algebra/lanes.hpp"
 #include "engine/core/work.hpp"
-#include "engine/integrator/node_iteration.hpp"
+#include "engine/integrator/sweep/node_iteration.hpp"
 #include "engine/solve/fixed_point_policy.hpp"
 #include "engine/solve/newton_policy.hpp"
 

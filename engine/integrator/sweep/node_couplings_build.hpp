@@ -6,8 +6,8 @@
 
 #include "engine/core/algebra/dense.hpp"
 #include "engine/core/algebra/lanes.hpp"
-#include "engine/integrator/node_couplings.hpp"
-#include "engine/integrator/node_iteration_build.hpp"
+#include "engine/integrator/sweep/node_couplings.hpp"
+#include "engine/integrator/sweep/node_iteration_build.hpp"
 
 namespace extremal {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/integrator/velocity_kernel.hpp"
+#include "engine/integrator/sweep/velocity_kernel.hpp"
 
 #include "engine/core/algebra/instruction_set.hpp"
 #include "engine/core/algebra/lanes.hpp"

@@ -11,8 +11,8 @@
 
 namespace extremal {
 
-/// Whether a sweep, which costs the square of the nodes, may be cheaper than a step of Newton's method. Rules of
-/// many panels have hundreds of nodes for the same few functions.
+/// Whether a sweep, which costs the square of the nodes, may be cheaper than a step of Newton's method. Rules
+/// of many panels have hundreds of nodes for the same few functions.
 inline bool areFewNodes(int nodes, int functions) { return nodes <= 64 + 4 * functions; }
 
 template <class T>

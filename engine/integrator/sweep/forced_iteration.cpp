@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/integrator/forced_iteration.hpp"
+#include "engine/integrator/sweep/forced_iteration.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/integrator/velocity_iteration_build.hpp"
+#include "engine/integrator/sweep/velocity_iteration_build.hpp"
 
 namespace extremal {
 namespace {

@@ -28,8 +28,8 @@
 #include "engine/action/table.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/core/text/archive.hpp"
-#include "engine/integrator/node_couplings.hpp"
-#include "engine/integrator/velocity_kernel.hpp"
+#include "engine/integrator/sweep/node_couplings.hpp"
+#include "engine/integrator/sweep/velocity_kernel.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/solve/correction_size.hpp"
 
