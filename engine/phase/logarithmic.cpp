@@ -76,27 +76,27 @@ void force(const void* model, double, const double* q, double* f) {
     const double perDepth = 1 / depth(m, q);
     for (std::size_t k = 1; k <= d; ++k) f[k] *= perDepth;
 }
-void drift(const void* model, double s, double* q, const double* p) {
-    const LogarithmicModel& m = self(model);
-    Eigen::VectorXd& v = roomOf(m).rates;
-    velocity(model, 0, p, v.data());
-    for (Eigen::Index k = 0; k < v.size(); ++k) q[k] += s * v(k);
-}
 void kicksAndDrifts(const void* model, const KicksAndDrifts<double>& steps, double* q, double* p, double* f) {
     const LogarithmicModel& m = self(model);
-    if (m.kick.outputs() > 0) return m.pair.take(steps, model, drift, q, p, f);
+    if (m.kick.outputs() > 0) return m.pair.take(steps, q, p, f);
     const int n = m.H.dimension + 1;
-    steps.take([&](double s) { drift(model, s, q, p); },
-               [&](const KickAndDrift<double>& by, bool isForceKnown) {
-                   if (!isForceKnown) force(model, 0, q, f);
-                   for (int k = 0; k < n; ++k) p[k] += by.kick * f[k];
-                   drift(model, by.drift, q, p);
-               },
-               [&](long long step) {
-                   if (!steps.nodes) return;
-                   double* const node = steps.nodes + static_cast<std::size_t>(step) * steps.stride;
-                   std::copy_n(p, n, std::copy_n(q, n, node));
-               });
+    Eigen::VectorXd& v = roomOf(m).rates;
+    const auto drift = [&](double s) {
+        velocity(model, 0, p, v.data());
+        for (int k = 0; k < n; ++k) q[k] += s * v(k);
+    };
+    steps.take(
+        drift,
+        [&](const KickAndDrift<double>& by, bool isForceKnown) {
+            if (!isForceKnown) force(model, 0, q, f);
+            for (int k = 0; k < n; ++k) p[k] += by.kick * f[k];
+            drift(by.drift);
+        },
+        [&](long long step) {
+            if (!steps.nodes) return;
+            double* const node = steps.nodes + static_cast<std::size_t>(step) * steps.stride;
+            std::copy_n(p, n, std::copy_n(q, n, node));
+        });
 }
 void gradient(const void* model, double t, const double* q, const double* p, double* g) {
     const int n = self(model).H.dimension + 1;

@@ -64,17 +64,9 @@ void forceAt(const void* model, double t, const double* q, double* f) {
     const PhaseModel& m = modelOf(model);
     PhaseRegisters(m, m.force, t, q, q).copy(0, m.d, f);
 }
-void separableKicks(const void* model, const KicksAndDrifts<double>& steps, double* q, double* p,
-                    double* force) {
+void kicksAndDriftsOf(const void* model, const KicksAndDrifts<double>& steps, double* q, double* p,
+                      double* force) {
     modelOf(model).kicks.take(steps, q, p, force);
-}
-void kicksOfSum(const void* model, const KicksAndDrifts<double>& steps, double* q, double* p, double* force) {
-    constexpr auto drift = [](const void* of, double s, double* x, const double* momenta) {
-        const PhaseModel& m = modelOf(of);
-        const PhaseRegisters v(m, m.velocity, 0, momenta, momenta);
-        for (std::size_t k = 0; k < m.d; ++k) x[k] += s * v[k];
-    };
-    modelOf(model).kicks.take(steps, model, drift, q, p, force);
 }
 void hessianAt(const void* model, double t, const double* q, const double* p, double* hessian) {
     const PhaseModel& m = modelOf(model);
@@ -189,7 +181,7 @@ public:
 
 private:
     void addKicks(PhaseMechanics& m, PhaseModel& model, const std::vector<int>& forces) const {
-        m.kicksAndDrifts = m.isSeparable() ? separableKicks : kicksOfSum;
+        m.kicksAndDrifts = kicksAndDriftsOf;
         if (!m.isSeparable()) {
             model.kicks = KickTape::ofSum(graph_, forces, std::span(gradient_).subspan(model.d));
             return;

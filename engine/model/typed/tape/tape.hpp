@@ -69,6 +69,8 @@ class Tape {
 public:
     /// What computes the roots. Symbols below `inputs` are inputs; there must be no others.
     static Tape of(const Graph& graph, std::span<const int> roots, int inputs);
+    /// What computes values of a code.
+    static Tape of(const Code& code, std::vector<std::uint32_t> values, std::size_t inputs);
     /// What computes values that are made by instructions, one for each of the first inputs: there it leaves
     /// them, and the next run goes on from them. The other inputs are fresh in each run.
     static Tape goingOn(const Code& code, std::vector<std::uint32_t> values, std::size_t inputs);
@@ -110,7 +112,6 @@ public:
     void copyOutputs(std::size_t first, std::size_t count, const double* r, double* to) const;
 
 private:
-    static Tape of(const Code& code, std::vector<std::uint32_t> values, std::size_t inputs);
     void findStretches();
     void runOne(double* r) const;  ///< without code
     template <class Call>

@@ -39,8 +39,14 @@ std::size_t bestShift(const Tape& tape) {
 KickTape::KickTape(const Graph& graph, std::span<const int> forces, const Drifts& drifts)
     : d_(forces.size()) {
     const auto d = static_cast<std::uint32_t>(d_);
-    Code code(graph);
-    Values f, p, q;
+    const auto moved = [&](Code& code, const Values& p) {
+        const Values moves = drifts(code, code.input(3 * d + 1), p);
+        Values q;
+        for (std::uint32_t i = 0; i < d; ++i) q.push_back(code.make(Op::add, code.input(i), moves[i]));
+        return q;
+    };
+    Code code(graph), ofDrift(graph);
+    Values f, p, same;
     for (const int root : forces) {
         f.push_back(code.value(root));
         // Where it is a coordinate or a number it is made here: a tape that goes on from what it has computed
@@ -48,15 +54,16 @@ KickTape::KickTape(const Graph& graph, std::span<const int> forces, const Drifts
         if (code.items()[f.back()].kind != Code::Kind::instruction)
             f.back() = code.make(Op::multiply, code.constant(1), f.back());
     }
-    const std::uint32_t kick = code.input(3 * d), drift = code.input(3 * d + 1);
-    for (std::uint32_t i = 0; i < d; ++i)
+    const std::uint32_t kick = code.input(3 * d);
+    for (std::uint32_t i = 0; i < d; ++i) {
         p.push_back(code.make(Op::add, code.input(d + i), code.make(Op::multiply, kick, f[i])));
-    const Values moves = drifts(code, drift, p);
-    for (std::uint32_t i = 0; i < d; ++i) q.push_back(code.make(Op::add, code.input(i), moves[i]));
-    Values all = std::move(q);
+        same.push_back(ofDrift.input(d + i));
+    }
+    Values all = moved(code, p);
     for (const Values& each : {p, f}) all.insert(all.end(), each.begin(), each.end());
-    tape_ = Tape::goingOn(code, std::move(all), 3 * d_ + 2);
-    shift_ = bestShift(tape_);
+    pair_ = Tape::goingOn(code, std::move(all), 3 * d_ + 2);
+    drift_ = Tape::of(ofDrift, moved(ofDrift, same), 3 * d_ + 2);
+    shift_ = bestShift(pair_);
 }
 
 KickTape KickTape::ofSeparable(const Graph& graph, std::span<const int> forces,
@@ -83,45 +90,34 @@ KickTape KickTape::ofSum(const Graph& graph, std::span<const int> forces, std::s
             }};
 }
 
-template <class Drifted>
-void KickTape::takeBy(const KicksAndDrifts<double>& steps, const Drifted& drift, double* q, double* p,
-                      double* force) const {
+void KickTape::take(const KicksAndDrifts<double>& steps, double* q, double* p, double* force) const {
     static_assert(sizeof(KickAndDrift<double>) == 2 * sizeof(double));
-    TapeRoom room(tape_.registers() + shift_);
+    TapeRoom room(std::max(pair_.registers(), drift_.registers()) + shift_);
     double *const r = room.data() + shift_, *const momenta = r + d_, *const forces = r + 2 * d_;
+    const auto drift = [&](double s) {
+        r[3 * d_ + 1] = s;
+        drift_.run(r);
+        drift_.copyOutputs(0, d_, r, r);
+    };
     std::copy_n(q, d_, r);
     std::copy_n(p, d_, momenta);
     if (steps.isForceKnown) std::copy_n(force, d_, forces);
     bool isForceKnown = steps.isForceKnown && steps.firstDrift == 0;
     for (long long step = 0; step < steps.steps; ++step) {
         std::span<const KickAndDrift<double>> left = steps.pairs;
-        if (steps.firstDrift != 0) drift(steps.firstDrift, r, momenta);
+        if (steps.firstDrift != 0) drift(steps.firstDrift);
         if (isForceKnown && !left.empty()) {
             addScaled(momenta, left.front().kick, forces, d_);
-            drift(left.front().drift, r, momenta);
+            drift(left.front().drift);
             left = left.subspan(1);
         }
-        if (!left.empty()) tape_.goOn(r, &left.front().kick, &left.front().kick + 2 * left.size());
+        if (!left.empty()) pair_.goOn(r, &left.front().kick, &left.front().kick + 2 * left.size());
         isForceKnown = steps.keepsForce();
         if (steps.nodes) std::copy_n(r, 2 * d_, steps.nodes + static_cast<std::size_t>(step) * steps.stride);
     }
     std::copy_n(r, d_, q);
     std::copy_n(momenta, d_, p);
     std::copy_n(forces, d_, force);
-}
-
-void KickTape::take(const KicksAndDrifts<double>& steps, const void* model, Drift drift, double* q, double* p,
-                    double* force) const {
-    takeBy(
-        steps, [&](double s, double* x, const double* momenta) { drift(model, s, x, momenta); }, q, p, force);
-}
-void KickTape::take(const KicksAndDrifts<double>& steps, double* q, double* p, double* force) const {
-    takeBy(
-        steps,
-        [&](double s, double* x, const double* momenta) {
-            addScaledProducts(x, s, steps.perMass, momenta, d_);
-        },
-        q, p, force);
 }
 
 }  // namespace extremal::typed

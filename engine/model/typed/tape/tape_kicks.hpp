@@ -25,11 +25,7 @@ public:
     /// `velocities`: roots of dA/dp, of the symbols d, d + 1, ... for p.
     static KickTape ofSum(const Graph& graph, std::span<const int> forces, std::span<const int> velocities);
 
-    /// As Mechanics::kicksAndDrifts; `drift(model, s, q, p)` moves q alone.
-    using Drift = void (*)(const void* model, double s, double* q, const double* p);
-    void take(const KicksAndDrifts<double>& steps, const void* model, Drift drift, double* q, double* p,
-              double* force) const;
-    /// The same with drifts by steps.perMass.
+    /// As Mechanics::kicksAndDrifts.
     void take(const KicksAndDrifts<double>& steps, double* q, double* p, double* force) const;
 
 private:
@@ -37,13 +33,11 @@ private:
     using Drifts = std::function<std::vector<std::uint32_t>(Code&, std::uint32_t drift,
                                                             const std::vector<std::uint32_t>& p)>;
     KickTape(const Graph& graph, std::span<const int> forces, const Drifts& drifts);
-    template <class Drifted>
-    void takeBy(const KicksAndDrifts<double>& steps, const Drifted& drift, double* q, double* p,
-                double* force) const;
 
     std::size_t d_ = 0;
-    Tape tape_;              ///< (q, p, force, kick, drift) -> (q, p, force)
-    std::size_t shift_ = 0;  ///< of its registers against lines of the cache
+    Tape pair_;              ///< (q, p, force, kick, drift) -> (q, p, force)
+    Tape drift_;             ///< the same registers -> q
+    std::size_t shift_ = 0;  ///< of the registers against lines of the cache
 };
 
 }  // namespace extremal::typed

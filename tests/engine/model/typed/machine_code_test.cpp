@@ -160,9 +160,9 @@ int kicksThatDiffer(const Graph& graph, const std::vector<int>& forces, const st
         steps.pairs = pairs;
         steps.firstDrift = 0.25;
         steps.steps = 3;
-        together.take(
-            steps, nullptr, [](const void*, double, double*, const double*) {}, q.data(), p.data(), f.data());
-        for (int step = 0; step < 3; ++step)
+        together.take(steps, q.data(), p.data(), f.data());
+        for (int step = 0; step < 3; ++step) {
+            drift(0.25);
             for (const auto& [kick, by] : pairs) {
                 std::copy(Q.begin(), Q.end(), r.begin());
                 typed::detail::run(force, r.data());
@@ -170,6 +170,7 @@ int kicksThatDiffer(const Graph& graph, const std::vector<int>& forces, const st
                 for (std::size_t k = 0; k < d; ++k) P[k] += kick * F[k];
                 drift(by);
             }
+        }
         for (std::size_t k = 0; k < d; ++k)
             found += !isSame(q[k], Q[k]) + !isSame(p[k], P[k]) + !isSame(f[k], F[k]);
     }
