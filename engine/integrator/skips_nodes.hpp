@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Steps to a node far ahead, where nobody reads the nodes on the way.
+/// Steps to a node far ahead, where the nodes on the way are not read.
 ///
 /// A state is what a scene shows: values at nodes, in the gauge of the model. A scheme that moves something
 /// else (modes, an interaction picture, a state between two halves of a kick) has to make a state of it at

@@ -100,7 +100,7 @@ private:
         return grid_.ahead() * (grid_.end - state_.t) <= slack * std::abs(lastStep_);
     }
 
-    /// Up to `count` steps; the report of the last one. Of nodes that nobody sees the last alone is made.
+    /// Up to `count` steps; the report of the last one. Where nodes are not seen, the last alone is made.
     StepReport takeSteps(NodeBlock& nodes, std::size_t count) {
         StepReport report;
         if (skipping_) {

@@ -147,7 +147,7 @@ private slots:
         QVERIFY(std::all_of(motion.state.x.begin(), motion.state.x.end(),
                             [](double v) { return std::isfinite(v); }));
     }
-    /// A march that nobody watches counts all steps, and ends where a watched one does.
+    /// A march without sinks counts all steps, and ends where a watched one does.
     void marchesCountAllSteps() {
         for (const Code& code : codes) {
             const ResolvedScene scene = sceneOf(code);
