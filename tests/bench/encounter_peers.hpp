@@ -245,9 +245,9 @@ inline void encounters(PeerTable& table) {
                 add("monitor " + std::string(monitor), of.lagrangian, monitored({monitor, {}, {}}, plain),
                     few, of.period);
         }
-    // Explicit ones; what is left at the end in eight steps.
+    // Explicit ones; what is left at the end in two steps.
     const Make rest = [](const System& system, const State& from, double h) {
-        return composed(std::vector<double>(8, 0.125), *freeMotion("srkn-19a")(system, from, h));
+        return composed(std::vector<double>(2, 0.5), *freeMotion("srkn-19a")(system, from, h));
     };
     for (const auto& [knots, kicks] : {std::pair{"strang", 1.0},
                                        {"suzuki-4", 5.0},

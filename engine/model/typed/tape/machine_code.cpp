@@ -141,7 +141,6 @@ private:
             if (place_[k] >= 0) placed.push_back(k);
         std::vector<bool> isAlive(tape_.registers(), false);
         for (const std::uint32_t k : does_.outputs) isAlive[k] = true;
-        for (std::uint32_t k = 0; k < kept_; ++k) isAlive[k] = true;
         for (std::size_t at = does_.code.size(); at-- > 0;) {
             const Instruction& i = does_.code[at];
             isAlive[i.to] = false;

@@ -140,15 +140,15 @@ int differences(const Tape& tape, unsigned seed, int places = 40) {
 /// The same for what force and velocity make of places and momenta in steps of two kicks.
 int kicksThatDiffer(const Graph& graph, const std::vector<int>& forces, const std::vector<int>& velocities,
                     unsigned seed) {
-    constexpr std::size_t d = inputs;
+    const std::size_t d = forces.size();
     std::mt19937 draw(seed);
     const auto together = typed::KickTape::ofSum(graph, forces, velocities);
-    const Tape force = Tape::of(graph, forces, inputs).withoutCode(),
-               velocity = Tape::of(graph, velocities, 2 * inputs).withoutCode();
+    const Tape force = Tape::of(graph, forces, static_cast<int>(d)).withoutCode(),
+               velocity = Tape::of(graph, velocities, 2 * static_cast<int>(d)).withoutCode();
     std::vector<double> r(force.registers()), s(velocity.registers());
-    std::array<double, d> q{}, p{}, f{}, Q{}, P{}, F{};
+    std::vector<double> q(d), p(d), f(d), Q(d), P(d), F(d);
     const auto drift = [&](double by) {
-        std::copy(P.begin(), P.end(), s.begin() + d);
+        std::copy(P.begin(), P.end(), s.begin() + static_cast<std::ptrdiff_t>(d));
         typed::detail::run(velocity, s.data());
         for (std::size_t k = 0; k < d; ++k) Q[k] += by * velocity.output(k, s.data());
     };
@@ -272,6 +272,21 @@ class MachineCodeTest : public QObject {
             }
             QCOMPARE(kicksThatDiffer(graph, forces, velocities, seed), 0);
         }
+    }
+    /// Loops over forces some of which are known long before others are, which read the same places.
+    void loopsThatReadLate() {
+        constexpr int half = 32;
+        Formulas formulas(11);
+        Graph& graph = formulas.graph();
+        std::vector<int> forces, velocities;
+        for (int k = 0; k < half; ++k) forces.push_back(graph.scaled(graph.symbol(half + k), 2));
+        for (int k = 0; k < half; ++k) {
+            int deep = graph.symbol(half + k);
+            for (int n = 1; n <= 6; ++n) deep = graph.sum(n, {{graph.product({{deep, 2}}), 0.1}});
+            forces.push_back(graph.product({{deep, -0.5}, {graph.symbol(k)}}));
+        }
+        for (int k = 0; k < 2 * half; ++k) velocities.push_back(graph.symbol(2 * half + k));
+        QCOMPARE(kicksThatDiffer(graph, forces, velocities, 1), 0);
     }
     /// At the second run, of all copies.
     void codeIsMadeForWhatRunsAgain() {
