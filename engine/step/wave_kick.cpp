@@ -50,8 +50,7 @@ template <class Pack>
 template <class Pack>
 [[gnu::always_inline]] inline void sineAndCosine(const Pack& angle, Pack& s, Pack& c) {
     using Bits [[gnu::vector_size(sizeof(Pack))]] = std::uint64_t;
-    constexpr double ownRest = 0.78;  // below pi/4
-    if (areAllWithin(angle, ownRest)) {
+    if (areAllWithin(angle, detail::largestUnreduced)) {
         const Pack none{};
         s = detail::sinNearZero(angle, none);
         c = detail::cosNearZero(angle, none);

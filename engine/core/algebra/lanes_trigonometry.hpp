@@ -21,6 +21,8 @@ namespace extremal {
 namespace detail {
 
 constexpr double largestReduced = 1e5;
+/// Up to here, below pi/4, the reduction of an angle changes nothing.
+constexpr double largestUnreduced = 0.78;
 
 // D: double with the bits U of std::uint64_t, or a vector of the one with a vector of the other.
 

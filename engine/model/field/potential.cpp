@@ -38,20 +38,19 @@ inline void sineLanes(const double* u, std::size_t n, double* slope) {
     for (std::size_t k = 0; i + k < n; ++k) slope[i + k] = rest.lane[k];
 }
 
-/// The same bits for values below pi/4, where the reduction of an angle changes nothing.
+/// The same bits for values whose reduction would change nothing.
 inline void smallSines(const double* u, std::size_t n, double* slope) {
     for (std::size_t i = 0; i < n; ++i) slope[i] = detail::sinNearZero(u[i], 0.0);
 }
 /// Whether all are. Neighbours are much alike: of most that are not, the ends say so.
 bool areSmall(const double* u, std::size_t n) {
-    constexpr double bound = 0.78;
     double most = std::max(std::fabs(u[0]), std::fabs(u[n - 1]));
-    for (std::size_t i = 0; i < n && most <= bound; i += Lanes::size) {
+    for (std::size_t i = 0; i < n && most <= detail::largestUnreduced; i += Lanes::size) {
         double largest[Lanes::size] = {};
         for (std::size_t k = 0; k < Lanes::size; ++k) largest[k] = std::fabs(u[i + k]);
         for (const double each : largest) most = std::max(most, each);
     }
-    return most <= bound;
+    return most <= detail::largestUnreduced;
 }
 
 /// A field that is at rest but for a few waves is small at most places.
