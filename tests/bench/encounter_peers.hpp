@@ -39,19 +39,7 @@ public:
     static constexpr std::array<double, 3> mass{3, 4, 5};
     static constexpr std::array<T, 2 * d> start{1, 3, -2, -1, 1, -1};
 
-    static void accelerate(const T* x, T* a) {
-        for (std::size_t k = 0; k < d; ++k) a[k] = 0;
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < i; ++j) {
-                const T u = x[2 * i] - x[2 * j], v = x[2 * i + 1] - x[2 * j + 1], square = u * u + v * v,
-                        w = 1 / (square * std::sqrt(square));
-                a[2 * i] -= mass[j] * w * u;
-                a[2 * i + 1] -= mass[j] * w * v;
-                a[2 * j] += mass[i] * w * u;
-                a[2 * j + 1] += mass[i] * w * v;
-            }
-    }
-    /// The same, and the negative potential, with one root for each distance.
+    /// The accelerations, and the negative potential, with one root for each distance.
     static T attraction(const T* x, T* a) {
         T sum = 0;
         for (std::size_t k = 0; k < d; ++k) a[k] = 0;
@@ -71,6 +59,7 @@ public:
         std::array<T, d> a;
         return attraction(x, a.data());
     }
+    static void accelerate(const T* x, T* a) { (void)attraction(x, a); }
     /// The coefficients n of all accelerations.
     std::array<T, d> coefficients(const std::array<TaylorOf<T>, d>& x, std::size_t n) {
         std::array<T, d> a{};
