@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,17 @@ struct Constraint {
     /// Where the system offers it (null else): (g, g_q) at many nodes together, count (1 + d) entries, entry
     /// k of node i at k * nodes + i, likewise q; `nodes` is a multiple of 8.
     void (*firsts)(const void*, const double* t, int nodes, const double* q, double* firsts) = nullptr;
+    /// What there is at many nodes by their times and places: entry k of node i at k * nodes + i, likewise q;
+    /// `nodes` is a multiple of 8.
+    struct AtNodes {
+        std::shared_ptr<const void> model;
+        void (*call)(const void*, const double* t, int nodes, const double* q, double* to) = nullptr;
+    };
+    /// How count coordinates depend on the f = d - count others, where the system offers it (null else). The
+    /// order has the constraints, the coordinate that each of these gives, and the others: with the columns
+    /// G_D and G_F of g_q, N = -G_D^-1 G_F (count x f) and -G_D^-1 g (count), eliminated in that order. Not a
+    /// number where a pivot is 0.
+    AtNodes (*dependence)(const void*, std::span<const int> order) = nullptr;
     /// Adds sum_k lambda_k d2 g_k / dq dq to a d x d matrix.
     void (*addCurvature)(const void*, double t, const double* q, const double* lambda,
                          double* matrix) = nullptr;

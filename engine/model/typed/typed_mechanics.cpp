@@ -125,7 +125,7 @@ private:
                             const double* v, double* to) {
         for (int i = 0; i < nodes; i += 8)
             eight(m, tape, t, nodes, q, v, i, [&](std::size_t k, const Lanes& value) {
-                value.store(to + static_cast<int>(k) * nodes + i);
+                storeEight(value, to + static_cast<int>(k) * nodes + i);
             });
     }
     /// Separable: L_q does not depend on v.
@@ -144,8 +144,8 @@ private:
         for (int i = 0; i < nodes; i += 8)
             eight(m, m.hessians, t, nodes, q, v, i, [&](std::size_t k, const Lanes& value) {
                 const Model::Place& place = m.places[k];
-                value.store(h + static_cast<int>(place.at) * nodes + i);
-                value.store(h + static_cast<int>(place.mirrored) * nodes + i);
+                storeEight(value, h + static_cast<int>(place.at) * nodes + i);
+                storeEight(value, h + static_cast<int>(place.mirrored) * nodes + i);
             });
     }
 };

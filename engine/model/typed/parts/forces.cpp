@@ -49,7 +49,7 @@ void firstOfForce(const void* p, double t, const double* q, const double* v, dou
 void forceAtNodes(const void* p, const double* t, int nodes, const double* q, const double* v, double* f) {
     const ForceModel& m = forceModel(p);
     runNodes(m.value, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
-        value.store(f + static_cast<int>(k) * nodes + i);
+        storeEight(value, f + static_cast<int>(k) * nodes + i);
     });
 }
 
@@ -59,7 +59,7 @@ void derivativesAtNodes(const void* p, const double* t, int nodes, const double*
     std::fill_n(derivatives, 2 * m.d * m.d * nodes, 0.0);
     runNodes(m.derivatives, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
         const ForceModel::Entry& e = m.entries[k];
-        value.store(derivatives + (e.i * 2 * m.d + e.j) * nodes + i);
+        storeEight(value, derivatives + (e.i * 2 * m.d + e.j) * nodes + i);
     });
 }
 
@@ -67,7 +67,7 @@ void gradientsWithForce(const void* p, const double* t, int nodes, const double*
                         double* gradients) {
     const ForceModel& m = forceModel(p);
     runNodes(m.gradients, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
-        value.store(gradients + static_cast<int>(k) * nodes + i);
+        storeEight(value, gradients + static_cast<int>(k) * nodes + i);
     });
 }
 
@@ -77,7 +77,8 @@ void gradientsAndMassesWithForce(const void* p, const double* t, int nodes, cons
     const int first = 2 * m.d;
     runNodes(m.gradientsAndMasses, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
         const int output = static_cast<int>(k);
-        value.store(output < first ? gradients + output * nodes + i : masses + (output - first) * nodes + i);
+        storeEight(value,
+                   output < first ? gradients + output * nodes + i : masses + (output - first) * nodes + i);
     });
 }
 
@@ -88,7 +89,7 @@ void hessiansWithForce(const void* p, const double* t, int nodes, const double* 
     for (std::size_t entry = 0; entry < m.constants.size(); ++entry)
         std::fill_n(hessians + entry * stride, stride, m.constants[entry]);
     runNodes(m.hessians, m.d, t, nodes, q, v, [&](std::size_t k, const Lanes& value, int i) {
-        value.store(hessians + m.places[k] * stride + static_cast<std::size_t>(i));
+        storeEight(value, hessians + m.places[k] * stride + static_cast<std::size_t>(i));
     });
 }
 

@@ -12,6 +12,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text/number_in.hpp"
 #include "engine/core/text/text.hpp"
+#include "engine/model/typed/parts/dependence.hpp"
 #include "engine/model/typed/parts/part_formulas.hpp"
 
 namespace extremal::typed {
@@ -33,6 +34,7 @@ struct ConstraintModel {
     std::vector<Second> entries;
     std::vector<std::size_t> values;  ///< where the outputs of each constraint begin
     std::vector<int> entryOf;         ///< of (g, g_q), for each output of `value`; -1: g_t
+    std::unique_ptr<const Dependence> dependence;
 };
 const ConstraintModel& constraintModel(const void* p) { return *static_cast<const ConstraintModel*>(p); }
 
@@ -50,7 +52,7 @@ void firstAtNodes(const void* p, const double* t, int nodes, const double* q, do
     const ConstraintModel& m = constraintModel(p);
     std::fill_n(firsts, m.count * (1 + m.d) * nodes, 0.0);
     runNodes(m.value, m.d, t, nodes, q, nullptr, [&](std::size_t output, const Lanes& value, int i) {
-        if (m.entryOf[output] >= 0) value.store(firsts + m.entryOf[output] * nodes + i);
+        if (m.entryOf[output] >= 0) storeEight(value, firsts + m.entryOf[output] * nodes + i);
     });
 }
 void firstEntries(const void* p, double t, const double* q, double* g, double* byPlace, double* byTime) {
@@ -87,6 +89,10 @@ void rates(const void* p, double t, const double* q, const double* v, double* ra
     const auto speed = [&](int i) { return i == m.d ? 1.0 : v[i]; };
     for (const ConstraintModel::Second& e : m.entries)
         rates[e.constraint] += (e.i == e.j ? 1 : 2) * speed(e.i) * speed(e.j) * r[e.output];
+}
+
+Constraint::AtNodes dependence(const void* p, std::span<const int> order) {
+    return constraintModel(p).dependence->inOrder(order);
 }
 
 /// What is in the way of a formula that has velocities where none belong.
@@ -152,6 +158,18 @@ public:
 
     const std::vector<std::string>& names() const { return names_; }
     bool isTimeDependent() const { return isTimeDependent_; }
+    /// Lets the model tell how coordinates depend on each other; once all relations are there.
+    bool addDependence() {
+        const int n = model_->count, d = model_->d;
+        if (n > Dependence::mostRows) return false;
+        std::vector<int> values, byPlace(placeOf(n * d), roots_.graph().number(0));
+        for (const std::size_t first : model_->values) values.push_back(values_[first]);
+        for (const ConstraintModel::First& e : model_->first)
+            byPlace[placeOf(e.constraint * d + e.i)] = values_[e.output];
+        model_->dependence =
+            std::make_unique<Dependence>(roots_.graph(), std::move(values), std::move(byPlace));
+        return true;
+    }
     std::shared_ptr<const ConstraintModel> model() {
         std::vector<int>& entryOf = model_->entryOf;
         entryOf.assign(values_.size(), -1);
@@ -184,6 +202,7 @@ std::optional<Constraint> constraintOf(const Settings& settings, const Formula& 
     Constraint made;
     made.names = relations.names();
     made.isTimeDependent = relations.isTimeDependent();
+    if (relations.addDependence()) made.dependence = dependence;
     const std::shared_ptr<const ConstraintModel> model = relations.model();
     auto entries = std::make_shared<Constraint::Entries>();
     for (const ConstraintModel::First& e : model->first) entries->byPlace.push_back({e.constraint, e.i});
