@@ -10,11 +10,41 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "engine/core/text/archive.hpp"
 #include "engine/solve/correction_size.hpp"
+#include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
+
+/// A root this far from its starting value, against the increments of the step, may be another one than that
+/// of the motion.
+inline constexpr double farFromRoot = 0.25;
+
+/// Whether sweeps have come to the one root there is near their start: the start is near to it by its first
+/// correction, or sweeps contract on the way to the last one by so much each that the equations are nearly
+/// linear there.
+inline bool isOneRoot(double first, double last, int contractions, double linear = 0.1) {
+    return first <= farFromRoot || (contractions > 0 && last <= first * std::pow(linear, contractions));
+}
+
+/// Steps that are left to Newton's method after one for which sweeps have not converged: none, and where this
+/// goes on one, two, four ..
+class SweepPause {
+public:
+    bool isOver() { return left_ == 0 || --left_ < 0; }
+    void end() { next_ = 0; }
+    void begin() {
+        left_ = next_;
+        next_ = std::clamp(2 * next_, 1, stepsWithNewton);
+    }
+    void checkpoint(Archive& archive) { archive(left_, next_); }
+
+private:
+    int left_ = 0, next_ = 0;
+};
 
 template <class T>
 class FixedPointPolicy {
@@ -23,8 +53,10 @@ public:
 
     /// `tolerance`: relative size of the last correction; at most epsilon: solve to round-off. `worth`: so
     /// many sweeps cost what a step of Newton's method costs, which is 20 to 60 of them where nodes are
-    /// evaluated one by one.
-    explicit FixedPointPolicy(const T& tolerance, int worth = 21) : tolerance_(tolerance), worth_(worth) {}
+    /// evaluated one by one. `noise`: what round-off leaves of corrections at most, where that is known and
+    /// not the unit of the last place.
+    explicit FixedPointPolicy(const T& tolerance, int worth = 21, const T& noise = T(0))
+        : tolerance_(tolerance), worth_(worth), noise_(noise) {}
 
     Verdict judge(const T& size) {
         if (!(size < std::numeric_limits<T>::infinity())) return Verdict::notFinite;
@@ -42,7 +74,7 @@ public:
         if (hasBuried_) return judgeApart(measure());
         const Verdict verdict = judge(size);
         if (verdict != Verdict::slow || !(measure().size < size)) return verdict;
-        *this = FixedPointPolicy(tolerance_, worth_);
+        *this = FixedPointPolicy(tolerance_, worth_, noise_);
         hasBuried_ = true;
         return Verdict::proceed;
     }
@@ -78,6 +110,8 @@ private:
     /// over three sweeps, within four digits of it, as sums of terms that cancel leave no more.
     bool isRoundOff(const T& size) const {
         const bool isSudden = size >= earlier_[0] * T(stall) && earlier_[0] < earlier_[2] * T(stall * stall);
+        if (noise_ > T(0))
+            return size < noise_ && size >= T(0.5) * earlier_[0] && earlier_[0] >= T(0.5) * earlier_[1];
         return (size < 8 * epsilon && isSudden) ||
                (size < roundOffOfSums<T>() && size >= earlier_[2] * T(stall));
     }
@@ -95,6 +129,7 @@ private:
 
     T tolerance_;
     int worth_;
+    T noise_;
     bool hasBuried_ = false;
     BuriedWatch<T> buried_;
     int sweeps_ = 0;

@@ -20,8 +20,8 @@ using Verdict = Policy::Verdict;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// The verdict on the last of the corrections, if all before it go on; else that which does not.
-Verdict lastOf(double tolerance, const std::vector<double>& sizes) {
-    Policy policy(tolerance);
+Verdict lastOf(double tolerance, const std::vector<double>& sizes, double noise = 0) {
+    Policy policy(tolerance, 21, noise);
     Verdict verdict = Verdict::proceed;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
         verdict = policy.judge(sizes[i]);
@@ -84,6 +84,33 @@ private slots:
         // A contraction of 0.4 goes on.
         QCOMPARE(lastOf(eps, {1e-12, 4e-13, 1.6e-13, 6.4e-14, 2.6e-14, 1e-14, 4e-15, 1.6e-15}),
                  Verdict::proceed);
+    }
+    /// Where round-off leaves more than the last place, corrections end that twice do not halve, and none
+    /// that contract by a third: seen in steps of a mechanism.
+    void aKnownNoiseIsNotWaitedFor() {
+        const double noise = 1e3 * eps;
+        QCOMPARE(lastOf(eps, {1.5e-10, 6.1e-14, 6.6e-14, 7e-14}, noise), Verdict::converged);
+        QCOMPARE(lastOf(eps, {1.5e-10, 6.1e-14, 6.6e-14, 7e-14}), Verdict::proceed);
+        QCOMPARE(lastOf(eps, {1.5e-10, 6.1e-14, 6.6e-14}, noise), Verdict::proceed);
+        QCOMPARE(lastOf(eps, {1e-12, 2e-13, 6e-14, 1.9e-14, 6e-15, 2e-15}, noise), Verdict::proceed);
+        QCOMPARE(lastOf(eps, {1e-10, 5e-12, 4e-12, 3.5e-12}, noise), Verdict::proceed);  // too far above it
+    }
+    void whatIsOneRootIsNearOrContracts() {
+        QVERIFY(isOneRoot(0.2, 0.1, 0) && !isOneRoot(0.3, 0.1, 0));
+        QVERIFY(isOneRoot(2, 1e-4, 5) && !isOneRoot(2, 1e-4, 3));
+        QVERIFY(!isOneRoot(2, 1e-3, 5, 0.1) && isOneRoot(2, 1e-3, 5, 0.25));
+    }
+    void pausesGrowWhereSweepsGoOnFailing() {
+        SweepPause pause;
+        const auto leftOut = [&] {
+            pause.begin();
+            int steps = 0;
+            while (!pause.isOver()) ++steps;
+            return steps;
+        };
+        for (const int expected : {0, 1, 2, 4, 8, 16, 32, 32}) QCOMPARE(leftOut(), expected);
+        pause.end();
+        QCOMPARE(leftOut(), 0);
     }
     void aCorrectionBeyondTheIncrementsPromisesNothing() {
         QCOMPARE(lastOf(eps, {7e17, 1.3}), Verdict::proceed);
