@@ -23,10 +23,6 @@ MechanismCurve::MechanismCurve(const Table<double>& ofStep, const MechanismRules
                                " Lobatto nodes do not tell apart, where constraints hold",
                            "polynomials");
     endSlope = samples({1.0}).slope;
-    std::vector<double> parts;
-    for (int k = 0; k <= partsPerFunction * m; ++k)
-        parts.push_back(static_cast<double>(k) / (partsPerFunction * m));
-    atParts = samples(parts);
     fit = dense::inverse<double>(ends);
     atGauss = {knownGauss(m), {}};
     if (isRollingAtGauss) {
@@ -57,6 +53,13 @@ MechanismCurve::Samples MechanismCurve::samples(const std::vector<double>& at) c
         s.slope.row(j) = Eigen::Map<const Vector>(slope.data(), table.space.size).transpose() * table.change;
     }
     return s;
+}
+
+MechanismCurve::Samples MechanismCurve::atParts() const {
+    const int count = partsPerFunction * unknowns();
+    std::vector<double> parts;
+    for (int k = 0; k <= count; ++k) parts.push_back(static_cast<double>(k) / count);
+    return samples(parts);
 }
 
 void MechanismCurve::placeAt(const Eigen::VectorXd& z, const Eigen::MatrixXd& at, int j,

@@ -67,7 +67,7 @@ struct MechanismCurve {
     Eigen::MatrixXd endSlope;   ///< (0, a): phi_a'(1)
     /// Places that are looked at in every step (gaps of walls): k / (8 m), k = 0..8 m.
     static constexpr int partsPerFunction = 8;
-    Samples atParts;
+    Samples atParts() const;
     /// Which of them tau is; -1: another one.
     int partOf(double tau) const {
         const int parts = partsPerFunction * unknowns(), k = static_cast<int>(tau * parts + 0.5);

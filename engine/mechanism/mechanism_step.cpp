@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/core/algebra/exact_sum.hpp"
-#include "engine/integrator/sweep/forced_iteration.hpp"
 #include "engine/integrator/variation/hessian_pull.hpp"
 #include "engine/integrator/variation/transposed_step.hpp"
 #include "engine/mechanism/dense_equations.hpp"
@@ -19,7 +18,9 @@
 #include "engine/mechanism/said_of_forces.hpp"
 #include "engine/mechanism/step_adjoint.hpp"
 #include "engine/mechanism/step_correction.hpp"
+#include "engine/mechanism/step_start.hpp"
 #include "engine/mechanism/step_variation.hpp"
+#include "engine/mechanism/sweep/mechanism_sweeps.hpp"
 #include "engine/mechanism/varied_step.hpp"
 #include "engine/solve/contraction.hpp"
 #include "engine/solve/step_continuation.hpp"
@@ -37,27 +38,22 @@ public:
         : mechanism_(parts, algebra),
           shared_(std::make_shared<MechanismCurve>(table, rules, mechanism_.dimension())),
           curve_(*shared_),
-          equations_(mechanism_.linked() ? linkedEquations(*mechanism_.linked(), curve_)
-                                         : denseEquations(mechanism_, shared_)),
           policy_(policy),
           tolerance_(toleranceOf<double>(policy)),
           h_(step),
           continues_(curve_.table.extrapolation.size() > 0),
+          sweeps_(mechanism_, curve_, step, policy),
           said_(parts, mechanism_.dimension()),
-          correction_(mechanism_.dimension(), curve_.unknowns(), mechanism_.constraints()),
-          adjoint_(mechanism_, shared_) {
+          correction_(mechanism_.dimension(), curve_.unknowns(), mechanism_.constraints()) {
         const int d = dimension(), m = curve_.unknowns(), n = constraints();
         Y_ = Vector::Zero(m * d);
         impulses_ = Vector::Zero(m * n);
         residual_ = Vector::Zero(m * (d + n));
         z_ = Vector::Zero((m + 1) * d);
-        p0_ = velocity_ = q1_ = p1_ = carryQ_ = carryP_ = endVelocity_ = keptQ_ = keptP_ = previousMasses_ =
-            Vector::Zero(d);
-        previousY_ = Y_;
-        previousImpulses_ = impulses_;
+        p0_ = q1_ = p1_ = carryQ_ = carryP_ = endVelocity_ = keptQ_ = keptP_ = Vector::Zero(d);
+        last_.take(Y_, impulses_, Vector::Zero(d));
         forces_ = increment_ = impulse_ = Vector::Zero(d);
-        if (mechanism_.force() && n == 0 && curve_.areForcesInside())
-            sweeps_ = ForcedIteration::of(mechanism_.mechanics(), *mechanism_.force(), table, step, policy);
+        if (!sweeps_.exist()) equations();
         node_ = gradient_ = Vector::Zero(2 * d);
     }
 
@@ -94,9 +90,9 @@ public:
             report_.outcome = Outcome::singular;
             return report_;
         }
-        previousY_ = Y_;
-        previousImpulses_ = impulses_;
-        previousMasses_ = equations_->masses();
+        if (!sweeps_.haveSolved()) {
+            last_.take(Y_, impulses_, equations_->masses());
+        }
         previousStep_ = h_;
         Eigen::Map<Vector>(state.x.data(), d) = q1_;
         Eigen::Map<Vector>(state.x.data() + d, d) = p1_;
@@ -115,9 +111,10 @@ public:
             }
             return;
         }
+        completeCurve();
         const int part = curve_.partOf(tau);
         if (part >= 0)
-            onCurve(tau, curve_.atParts, part, x);
+            onCurve(tau, atParts(), part, x);
         else
             onCurve(tau, curve_.samples({tau}), 0, x);
     }
@@ -154,7 +151,7 @@ public:
         for (Eigen::Index c = 0; c < columns; ++c) {
             x = variation_->residual().col(c);
             x.segment((m - 1) * d, d) += W.col(c).tail(d);
-            equations_->solve(x);
+            equations().solve(x);
             z.col(c).tail(m * d) = -x.head(m * d);
             impulses.col(c) = -x.tail(m * n);
         }
@@ -176,7 +173,8 @@ public:
     }
     bool hasNodes() const override { return constraints() == 0; }
     void visitNodes(const std::function<void(const NodePull::Node&)>& visit) override {
-        adjoint_.visit({start_, h_, z_, impulses_}, visit);
+        completeCurve();
+        adjoint().visit({start_, h_, z_, impulses_}, visit);
     }
     bool pullBack(std::span<double> W, NodePull& pull) override {
         const auto rows = static_cast<Eigen::Index>(tangentSize());
@@ -184,10 +182,11 @@ public:
         return haveFactorsAtSolution() &&
                (!isProjected() ||
                 mechanism_.transposeProjection(start_ + h_, q1_.data(), endVelocity_, kappa_, columns)) &&
-               adjoint_.apply({start_, h_, z_, impulses_}, *equations_, pull, columns);
+               adjoint().apply({start_, h_, z_, impulses_}, equations(), pull, columns);
     }
 
     double discreteEnergy() const override {
+        completeCurve();
         const Table<double>& table = curve_.table;
         const auto& L = mechanism_.mechanics();
         const int d = dimension();
@@ -206,6 +205,7 @@ public:
     /// besides (said_of_forces.hpp).
     std::span<const Quantity> quantities() const override { return said_.quantities(); }
     void measure(const State&, double* values) const override {
+        completeCurve();
         std::fill_n(values, said_.quantities().size(), 0.0);
         if (mechanism_.force()) said_.addForces(forMeasures(), curve_, {start_, h_, z_}, values);
         if (mechanism_.rolling() || (mechanism_.constraint() && mechanism_.constraint()->isTimeDependent))
@@ -213,23 +213,23 @@ public:
                 forMeasures(), curve_, {start_, h_, z_}, impulses_, isProjected() ? &kappa_ : nullptr);
     }
 
-    std::string about() const override { return equations_->about(); }
+    std::string about() const override { return equations_ ? equations_->about() : std::string(); }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<MechanismStep>(*this); }
     bool checkpoint(Archive& archive) override {
-        archive(carryQ_, carryP_, q1_, p1_, previousY_, previousImpulses_, previousMasses_, previousStep_,
-                ladder_, isBySweeps_);
-        if (sweeps_) sweeps_->checkpoint(archive);
+        archive(carryQ_, carryP_, q1_, p1_, last_, previousStep_, ladder_);
+        sweeps_.checkpoint(archive);
         return true;
     }
 
 private:
-    /// A root this far from its starting value, against the increments of the step, may be another one than
-    /// that of the motion.
-    static constexpr double far = 0.25;
     /// A new matrix of this size costs as much as so many corrections save.
     static double worth(Eigen::Index size) { return 4 + static_cast<double>(size) / 16; }
 
+    const MechanismCurve::Samples& atParts() const {
+        if (!atParts_) atParts_ = curve_.atParts();
+        return *atParts_;
+    }
     int dimension() const { return mechanism_.dimension(); }
     int constraints() const { return mechanism_.constraints(); }
     /// Whether p at the end is moved onto the conditions.
@@ -245,42 +245,42 @@ private:
         std::copy_n(gradient_.data() + d, d, x.data() + d);
     }
 
-    /// By sweeps over the nodes where they apply, or else by Newton's method.
+    /// By sweeps where they apply and converge, or else by Newton's method.
     Outcome solve(bool hasPrevious) {
-        const bool wasBySweeps = std::exchange(isBySweeps_, false);
-        if (!sweeps_) return byNewton(hasPrevious);
-        const bool isNext = wasBySweeps && hasPrevious;
-        const Outcome outcome = sweeps_->solve(
-            {start_, h_, z_.data(), p0_.data(), carryQ_.data(), carryP_.data(), isNext, stop()}, Y_, report_);
-        if (outcome == Outcome::converged) {
-            isBySweeps_ = true;
-            z_.tail(Y_.size()) = Y_;
-            areFactorsHere_ = isEvaluatedHere_ = false;
-        }
-        return isBySweeps_ || outcome == Outcome::stopped ? outcome : byNewton(hasPrevious);
+        if (!sweeps_.exist()) return byNewton(hasPrevious);
+        const bool wasBySweeps = sweeps_.haveSolved();
+        const Outcome outcome = sweeps_.solve(
+            {start_, h_, z_.data(), p0_.data(), carryQ_.data(), carryP_.data(), hasPrevious, stop()},
+            mechanism_, motion_, report_);
+        if (outcome == Outcome::converged)
+            areFactorsHere_ = isEvaluatedHere_ = isCurveHere_ = areReactionsHere_ = false;
+        return outcome == Outcome::converged || outcome == Outcome::stopped
+                   ? outcome
+                   : byNewton(hasPrevious && !wasBySweeps);
     }
 
     /// Newton's method from the last curve, or else from what is known at the start, and a second opinion
     /// where its root is far from that.
     Outcome byNewton(bool hasPrevious) {
         correction_.begin();
-        if (continues_ && ladder_.begin(hasPrevious) == StartingValue::extrapolated && extrapolate()) {
-            const Outcome outcome = newton(h_, far);
-            if (outcome == Outcome::stopped || (outcome == Outcome::converged && nearness_ <= far))
+        if (continues_ && ladder_.begin(hasPrevious) == StartingValue::extrapolated &&
+            last_.goOn(curve_, Y_, impulses_)) {
+            const Outcome outcome = newton(h_, farFromRoot);
+            if (outcome == Outcome::stopped || (outcome == Outcome::converged && nearness_ <= farFromRoot))
                 return outcome;
             ladder_.below(StartingValue::extrapolated, false);
         }
         Outcome outcome = startFresh(h_) ? newton(h_) : Outcome::singular;
         if (outcome == Outcome::stopped) return outcome;
-        if (outcome == Outcome::converged && nearness_ <= far) return outcome;
+        if (outcome == Outcome::converged && nearness_ <= farFromRoot) return outcome;
         const Vector found = Y_;
         const bool wasFound = outcome == Outcome::converged;
         StepContinuation<double> continuation;
         const bool hasArrived = continuation.follow(Y_, [&](double part, bool isFresh) {
             if (stop().stop_requested()) return false;
             if (isFresh && !startFresh(part * h_)) return false;
-            guessImpulses(part * h_);
-            return newton(part * h_) == Outcome::converged && nearness_ <= far;
+            motion_.impulses(curve_, part * h_, mechanism_.holonomic(), impulses_);
+            return newton(part * h_) == Outcome::converged && nearness_ <= farFromRoot;
         });
         if (stop().stop_requested()) return Outcome::stopped;
         if (hasArrived) return Outcome::converged;
@@ -290,68 +290,70 @@ private:
         return Outcome::lost;
     }
 
-    /// The impulses of the multipliers at the start, of a step of this length.
-    void guessImpulses(double h) {
-        const int n = constraints(), g = mechanism_.holonomic();
-        for (int j = 0; j < curve_.unknowns(); ++j) {
-            impulses_.segment(j * n, g) = h * curve_.weight(j) * multipliers_.head(g);
-            impulses_.segment(j * n + g, n - g) =
-                h * curve_.rolling.b[static_cast<std::size_t>(j)] * multipliers_.tail(n - g);
-        }
-    }
-
-    /// The last curve goes on; what acts on it is taken to be what has acted. False where its increments
-    /// would be others than the last ones, as in front of a turning point: a root near such a curve may be
-    /// any.
-    bool extrapolate() {
-        const int d = dimension(), m = curve_.unknowns();
-        using Curve = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-        const Eigen::Map<const Curve> previous(previousY_.data(), m, d);
-        Eigen::Map<Curve>(Y_.data(), m, d) = curve_.table.extrapolation.lazyProduct(previous);
-        impulses_ = previousImpulses_;
-        const auto last = previousY_.tail(d).array(), next = Y_.tail(d).array();
-        const auto masses = previousMasses_.array();
-        return (masses * (next - last).square()).sum() <= far * far * (masses * last.square()).sum();
-    }
-
     bool startFresh(double h) {
-        const int d = dimension(), m = curve_.unknowns();
-        const auto& L = mechanism_.mechanics();
-        velocity_.setZero();
-        if (!L.velocity(L.model.get(), start_, z_.data(), p0_.data(), velocity_.data())) return false;
-        ++report_.cost.evaluations;
-        ++report_.cost.linearSolves;
-        if (!mechanism_.accelerate(start_, z_.data(), velocity_.data(), acceleration_, multipliers_))
-            return false;
-        for (int a = 0; a < m; ++a) {
-            auto Y = Y_.segment(a * d, d);
-            Y.setZero();
-            for (int j = 0; j < m; ++j) {
-                const double t = curve_.place(j + 1) * h;
-                Y += curve_.fit(a, j) * (t * velocity_ + t * t / 2 * acceleration_);
-            }
-        }
-        guessImpulses(h);
+        if (!motion_.take(mechanism_, start_, z_.data(), p0_.data(), report_)) return false;
+        motion_.curve(curve_, h, Y_);
+        motion_.impulses(curve_, h, mechanism_.holonomic(), impulses_);
         return true;
     }
 
+    /// Those of Newton's method, which steps by sweeps mostly do without.
+    MechanismEquations& equations() {
+        if (!equations_)
+            equations_ = OwnCopy<MechanismEquations>(mechanism_.linked()
+                                                         ? linkedEquations(*mechanism_.linked(), curve_)
+                                                         : denseEquations(mechanism_, shared_));
+        return *equations_;
+    }
+    StepAdjoint& adjoint() {
+        if (!adjoint_) adjoint_.emplace(mechanism_, shared_);
+        return *adjoint_;
+    }
     Outcome factorise() {
         report_.cost.evaluations += curve_.table.nodes();
         ++report_.cost.linearSolves;
-        return equations_->factorise();
+        return equations().factorise();
     }
 
     bool evaluate(double h) {
         z_.tail(Y_.size()) = Y_;
+        return evaluateHere(h);
+    }
+    bool evaluateHere(double h) {
         report_.cost.evaluations += curve_.table.nodes();
-        return isEvaluatedHere_ = equations_->evaluate(start_, h, z_, p0_, impulses_);
+        return isEvaluatedHere_ = equations().evaluate(start_, h, z_, p0_, impulses_);
+    }
+
+    /// The curve, which sweeps leave to be asked for.
+    void completeCurve() const {
+        if (!sweeps_.haveSolved() || isCurveHere_) return;
+        sweeps_.curve(z_.tail(Y_.size()));
+        isCurveHere_ = true;
+    }
+    /// What Newton's method knows at the solution and sweeps do without.
+    void completeStep() {
+        completeCurve();
+        if (!sweeps_.haveSolved() || areReactionsHere_ || !isProjected()) return;
+        sweeps_.multipliers(start_, z_.data(), impulses_);
+        areReactionsHere_ = true;
+        takeEndVelocity();
+        Vector p = p0_ + impulse_;
+        mechanism_.project(start_ + h_, q1_.data(), p.data(), endVelocity_, kappa_, true);
+    }
+    /// v at the end of the curve.
+    void takeEndVelocity() {
+        const int d = dimension();
+        endVelocity_.setZero();
+        for (int a = 0; a < curve_.unknowns(); ++a)
+            endVelocity_ += curve_.endSlope(0, a) / h_ * z_.segment((a + 1) * d, d);
     }
 
     /// The factors at the solution.
     bool haveFactorsAtSolution() {
+        completeStep();
         if (!areFactorsHere_)
             areFactorsHere_ =
-                (isEvaluatedHere_ || evaluate(h_)) && equations_->factorise() == Outcome::converged;
+                (isEvaluatedHere_ || evaluateHere(h_)) && equations().factorise() == Outcome::converged;
         return areFactorsHere_;
     }
 
@@ -372,11 +374,11 @@ private:
                 if (const Outcome factors = factorise(); factors != Outcome::converged) return factors;
                 policy.jacobianIsNew();
             }
-            residual_ = equations_->residual();
-            equations_->solve(residual_);
+            residual_ = equations().residual();
+            equations().solve(residual_);
             ++report_.cost.linearSolves;
             ++report_.cost.iterations;
-            correction_.take(*equations_, {h, z_, p0_, impulses_, residual_});
+            correction_.take(equations(), {h, z_, p0_, impulses_, residual_});
             constexpr int usual = 4;
             if (iteration == usual) correction_.knowReactions();
             report_.residual = correction_.relative();
@@ -409,25 +411,27 @@ private:
         z_.tail(Y_.size()) = Y_;
         areFactorsHere_ = isEvaluatedHere_ = false;
         const double little = std::max(1e-3 * tolerance_, std::numeric_limits<double>::epsilon());
-        if (next <= little && equations_->moveImpulse(residual_)) return Outcome::converged;
+        if (next <= little && equations().moveImpulse(residual_)) return Outcome::converged;
         return evaluate(h) ? Outcome::converged : Outcome::notFinite;
     }
 
     /// (q_1, p_1) with what the last sums have lost, and the work.
     bool finish() {
-        const int d = dimension(), m = curve_.unknowns();
+        const int d = dimension();
         const double end = start_ + h_;
-        if (isBySweeps_) {
-            sweeps_->increments(increment_, impulse_, carryQ_, carryP_);
+        if (sweeps_.haveSolved()) {
+            sweeps_.increments(increment_, impulse_, carryQ_, carryP_);
         } else {
             increment_ = Y_.tail(d);
             impulse_ = equations_->impulse();
         }
         for (int k = 0; k < d; ++k) q1_(k) = addExactly(z_(k), increment_(k) + carryQ_(k), carryQ_(k));
         p1_ = p0_ + impulse_;
-        if (isProjected()) {
-            endVelocity_.setZero();
-            for (int a = 0; a < m; ++a) endVelocity_ += curve_.endSlope(0, a) / h_ * Y_.segment(a * d, d);
+        if (sweeps_.haveSolved() && sweeps_.project(p1_, forces_)) {
+            // As below, without asking for multipliers.
+        } else if (isProjected()) {
+            completeCurve();
+            takeEndVelocity();
             if (!mechanism_.project(end, q1_.data(), p1_.data(), endVelocity_, kappa_, true)) return false;
             mechanism_.reaction(end, q1_.data(), kappa_, forces_);
         } else {
@@ -451,24 +455,28 @@ private:
     SolverPolicy policy_;
     double tolerance_, h_;
     Vector Y_, impulses_, residual_;         ///< impulses_: Lambda_j, j < m
-    Vector z_;                               ///< (q_0, Y)
+    mutable Vector z_;                       ///< (q_0, Y)
     Vector p0_, q1_, p1_, carryQ_, carryP_;  ///< carries: lost to rounding in q_1 and p_1
     Vector keptQ_, keptP_;                   ///< the carries before the step
-    Vector velocity_, acceleration_, multipliers_, endVelocity_, kappa_;
-    Vector previousY_, previousImpulses_, previousMasses_;  ///< of the last step
-    double previousStep_ = 0;                               ///< its length; 0: there was none
-    bool continues_;  ///< whether the curve of a step goes on behind its end
+    StartMotion motion_;
+    Vector endVelocity_, kappa_;
+    LastCurve last_;           ///< by Newton's method
+    double previousStep_ = 0;  ///< its length; 0: there was none
+    bool continues_;           ///< whether the curve of a step goes on behind its end
     StartingLadder ladder_;
     /// Whether the last evaluation, and the last factors, are those at the unknowns.
     bool isEvaluatedHere_ = false, areFactorsHere_ = false;
-    std::optional<ForcedIteration> sweeps_;
-    bool isBySweeps_ = false;              ///< the last step
-    Vector increment_, impulse_, forces_;  ///< of (q, p) in a step; reactions at its end
-    mutable Vector node_, gradient_;       ///< of one node
+    MechanismSweeps sweeps_;
+    /// Whether z_ has the curve of a step by sweeps, and the multipliers are those of it.
+    mutable bool isCurveHere_ = false;
+    bool areReactionsHere_ = false;
+    Vector increment_, impulse_, forces_;                     ///< of (q, p) in a step; reactions at its end
+    mutable Vector node_, gradient_;                          ///< of one node
+    mutable std::optional<MechanismCurve::Samples> atParts_;  ///< once they are looked at
     std::optional<HessianPull> pull_;
     SaidOfForces said_;
     StepCorrection correction_;
-    StepAdjoint adjoint_;
+    std::optional<StepAdjoint> adjoint_;
     mutable std::optional<Mechanism> measured_;
     std::optional<StepVariation> variation_;
     double start_ = 0, nearness_ = 0;

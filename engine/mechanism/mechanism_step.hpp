@@ -26,8 +26,8 @@
 /// order 2 m with both ends takes Lobatto nodes (Jay 1996; Wenger, Ober-Bloebaum, Leyendecker 2017). Forces
 /// act in the variation (d'Alembert): with them the step is not symplectic, momenta and symmetry stay.
 ///
-/// Steps with forces and without constraints are solved by sweeps over the nodes where these converge
-/// (integrator/forced_iteration.hpp), and all others by Newton's method.
+/// Steps are solved by sweeps where there are some for them and these converge (sweep/mechanism_sweeps.hpp),
+/// and all others by Newton's method.
 ///
 /// Newton's method starts from the curve of the last step, extrapolated, and its impulses. Where the
 /// increments would be others than the last ones, or the root is not near, it starts from

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/integrator/sweep/forced_iteration.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "engine/integrator/sweep/velocity_iteration_build.hpp"
 
 namespace extremal {
@@ -61,44 +58,40 @@ ForcedIteration::ForcedIteration(const Mechanics<double>& both, const Table<doub
                                  const SolverPolicy& policy, GradientsAndMasses withMasses)
     : sweeps_(both, table, step, toleranceOf<double>(policy), withMasses), policy_(policy), h_(step) {}
 
-Outcome ForcedIteration::solve(const From& from, Eigen::VectorXd& Y, StepReport& report) {
+Outcome ForcedIteration::solve(const From& from, StepReport& report) {
     if (from.h != h_) sweeps_.setStep(h_ = from.h);
     if (!from.isNext) sweeps_.forget();
-    if (pause_ > 0) {
-        --pause_;
-        return Outcome::diverged;
-    }
+    if (!pause_.isOver()) return Outcome::diverged;
     Outcome outcome = attempt(from, report);
     if (outcome == Outcome::diverged && from.isNext) {
         sweeps_.forget();
         outcome = attempt(from, report);
     }
     if (outcome == Outcome::converged) {
-        nextPause_ = 1;
-        sweeps_.curve(Y.data());
+        pause_.end();
         return outcome;
     }
     sweeps_.forget();
-    if (outcome == Outcome::diverged) {
-        pause_ = nextPause_;
-        nextPause_ = std::min(2 * nextPause_, stepsWithNewton);
-    }
+    if (outcome == Outcome::diverged) pause_.begin();
     return outcome;
 }
 
-/// Converged, to the one root there is near the start: the start is near to it, or sweeps contract so well on
-/// the way that the equations are nearly linear there. Diverged: to none, or to any.
+void ForcedIteration::curve(Eigen::Ref<Eigen::VectorXd> Y) const { sweeps_.curve(Y.data()); }
+
+void ForcedIteration::increments(Eigen::VectorXd& dq, Eigen::VectorXd& dp, Eigen::VectorXd& carryQ,
+                                 Eigen::VectorXd& carryP) const {
+    sweeps_.increments(dq.data(), dp.data(), carryQ.data(), carryP.data());
+}
+
+/// Converged, to the one root there is near the start. Diverged: to none, or to any.
 Outcome ForcedIteration::attempt(const From& from, StepReport& report) {
-    constexpr double far = 0.25, linear = 0.1;
     const long long before = report.cost.iterations;
     const Outcome outcome = sweeps_.solve(from.t, from.q, from.p, from.carryQ, from.carryP,
                                           policy_.maxIterations, from.stop, report);
     if (outcome == Outcome::stopped) return outcome;
     if (outcome != Outcome::converged) return Outcome::diverged;
-    if (sweeps_.nearness() <= far) return outcome;
-    const double contractions = static_cast<double>(report.cost.iterations - before - 1);
-    const bool isOne = report.residual <= sweeps_.nearness() * std::pow(linear, contractions);
-    return isOne && contractions > 0 ? outcome : Outcome::diverged;
+    const auto contractions = static_cast<int>(report.cost.iterations - before - 1);
+    return isOneRoot(sweeps_.nearness(), report.residual, contractions) ? outcome : Outcome::diverged;
 }
 
 }  // namespace extremal

@@ -17,6 +17,7 @@
 #include "engine/integrator/sweep/velocity_iteration.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/model/parts/force.hpp"
+#include "engine/solve/fixed_point_policy.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
@@ -37,16 +38,16 @@ public:
         bool isNext;
         const std::stop_token& stop;
     };
-    /// Y: the coefficients of the curve, function by function. Starts from what the last step says of this
-    /// one, and then from the velocity at its start. What does not converge, or not so that there can be one
-    /// root only, is left to Newton's method, which has some steps to itself where that happens again.
-    Outcome solve(const From& from, Eigen::VectorXd& Y, StepReport& report);
+    /// Starts from what the last step says of this one, and then from the velocity at its start. What does
+    /// not converge, or not so that there can be one root only, is left to Newton's method, which has some
+    /// steps to itself where that happens again.
+    Outcome solve(const From& from, StepReport& report);
+    /// The coefficients of the last curve, function by function.
+    void curve(Eigen::Ref<Eigen::VectorXd> Y) const;
     /// Of the last step.
     void increments(Eigen::VectorXd& dq, Eigen::VectorXd& dp, Eigen::VectorXd& carryQ,
-                    Eigen::VectorXd& carryP) const {
-        sweeps_.increments(dq.data(), dp.data(), carryQ.data(), carryP.data());
-    }
-    void checkpoint(Archive& archive) { archive(sweeps_, pause_, nextPause_); }
+                    Eigen::VectorXd& carryP) const;
+    void checkpoint(Archive& archive) { archive(sweeps_, pause_); }
 
 private:
     using GradientsAndMasses = VelocityIteration<double>::GradientsAndMasses;
@@ -58,7 +59,7 @@ private:
     VelocityIteration<double> sweeps_;
     SolverPolicy policy_;
     double h_;
-    int pause_ = 0, nextPause_ = 1;  ///< steps that are left to Newton's method, now and the next time
+    SweepPause pause_;
 };
 
 }  // namespace extremal
