@@ -62,7 +62,9 @@ Outcome MechanismSweeps::fromStart(const From& from, StartMotion& start, StepRep
         return outcome == Outcome::converged;
     };
     if (solve(1, true)) return outcome;
-    const bool hasArrived = StepContinuation<double>().follow(Y_, solve);
+    const bool hasArrived = StepContinuation<double>().follow(Y_, [&](double part, bool isFresh) {
+        return solve(part, isFresh) && onNullSpace_->nearness() <= farFromRoot;
+    });
     return hasArrived || outcome == Outcome::stopped ? outcome : Outcome::diverged;
 }
 

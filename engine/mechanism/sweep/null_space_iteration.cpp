@@ -287,9 +287,9 @@ void NullSpaceIteration::countBy(int k, double increments) {
     perSize_[at(k)] = known > 0 ? 1 / known : 1;
 }
 
-/// The last change and what it counts by, with increments as they are now; `near`: that of all coordinates
-/// together in the metric of the masses.
-double NullSpaceIteration::measureAgain(double& near) {
+/// The last change and what it counts by, with increments as they are now; the nearness is that of all
+/// coordinates together in the metric of the masses.
+double NullSpaceIteration::measureAgain() {
     kernel_.measure(sweep_, size_.data());
     double largest = 0, change = 0, increments = 0;
     for (int k = 0; k < d_; ++k) {
@@ -301,7 +301,7 @@ double NullSpaceIteration::measureAgain(double& near) {
         change = std::max(change, root * size.change);
         increments = std::max(increments, root * std::max(size.scale, least));
     }
-    near = change > 0 ? change / increments : 0;
+    nearness_ = change > 0 ? change / increments : 0;
     return largest;
 }
 
@@ -321,7 +321,7 @@ Outcome NullSpaceIteration::solve(StepReport& report) {
     constexpr double noise = 1e3 * roundOff;  // of sums with slopes of tests that cancel
     FixedPointPolicy<double> policy(tolerance_ / 10, worth, noise);
     constexpr double slow = 0.03;
-    double near = 0, before = 1;
+    double before = 1;
     contraction_ = 0;
     for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
         if (stop_->stop_requested()) return Outcome::stopped;
@@ -338,9 +338,9 @@ Outcome NullSpaceIteration::solve(StepReport& report) {
         // Where the first change is a small part of what the last increments promise, it is so of all
         // together.
         if (s.isFirst) {
-            near = size;
-            if (!isGoingOn_ || !(size <= farFromRoot)) size = measureAgain(near);
-            if (isGoingOn_ && near > 1) return Outcome::diverged;
+            nearness_ = size;
+            if (!isGoingOn_ || !(size <= farFromRoot)) size = measureAgain();
+            if (isGoingOn_ && nearness_ > 1) return Outcome::diverged;
         }
         ++report.cost.iterations;
         report.cost.evaluations += nodes_;
@@ -357,7 +357,7 @@ Outcome NullSpaceIteration::solve(StepReport& report) {
             kernel_.apply(s);
             continue;
         }
-        if (!isOneRoot(near, size, iteration, 0.25)) return Outcome::diverged;
+        if (!isOneRoot(nearness_, size, iteration, 0.25)) return Outcome::diverged;
         if (isExact_) {
             kernel_.apply(s);
             evaluate();

@@ -65,6 +65,8 @@ public:
     bool startFromCurve(const From& from, const Vector& v, const Vector& Y);
     /// From one of these. Converged: to the one root there is near the start. Diverged: to none, or to any.
     Outcome solve(StepReport& report);
+    /// How far its start was from the root, against the increments of the step.
+    double nearness() const { return nearness_; }
 
     /// Y of the last step.
     void curve(Eigen::Ref<Vector> Y) const;
@@ -97,7 +99,7 @@ private:
     void prepare(const From& from);
     void evaluate();
     void countBy(int k, double increments);
-    double measureAgain(double& near);
+    double measureAgain();
     CorrectionSize<double> measured();
 
     Mechanics<double> mechanics_;
@@ -129,6 +131,7 @@ private:
     bool hasLast_ = false;    ///< previousU_ is that of the last step
     bool isGoingOn_ = false;  ///< from the last curve
     bool hasCurve_ = false;   ///< U is that of the last step
+    double nearness_ = 0;
     double contraction_ = 0;  ///< the slowest of the last step
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -131,8 +132,7 @@ private slots:
                 const auto integrator = makeIntegrator(of.system, d, {0, 0.02});
                 State s = of.start;
                 integrator->begin(s);
-                for (int i = 0; i < 20; ++i)
-                    QVERIFY(advance(*integrator, s).outcome == Outcome::converged);
+                for (int i = 0; i < 20; ++i) QVERIFY(advance(*integrator, s).outcome == Outcome::converged);
                 const std::size_t size = integrator->tangentSize();
                 std::vector<double> W(size * size, 0.0);
                 for (std::size_t i = 0; i < size; ++i) W[i * size + i] = 1;
@@ -175,6 +175,36 @@ private slots:
             // The same order is the same code.
             QCOMPARE(g.dependence(g.model.get(), order).model, dependence.model);
         }
+    }
+    /// In steps of which the crank makes a third of a turn and more, where there are other roots, the same
+    /// one is found, or none.
+    void longStepsHaveTheRootsOfNewton() {
+        const Mechanical of = fourBar();
+        int compared = 0;
+        for (const int degree : {2, 3, 4, 6})
+            for (double h = 0.03; h < 0.3; h *= 1.06) {
+                std::unique_ptr<Integrator> integrators[2];
+                State states[2] = {of.start, of.start};
+                for (const bool isNewton : {false, true}) {
+                    Discretization d = *namedScheme("galerkin-gauss-" + std::to_string(degree));
+                    d.solver = {isNewton ? "newton" : "auto", {}, {}};
+                    integrators[isNewton] = makeIntegrator(of.system, d, {0, h});
+                    integrators[isNewton]->begin(states[isNewton]);
+                }
+                for (int i = 0; i < 40; ++i) {
+                    Outcome outcomes[2];
+                    for (const bool isNewton : {false, true})
+                        outcomes[isNewton] = advance(*integrators[isNewton], states[isNewton]).outcome;
+                    if (outcomes[0] != Outcome::converged || outcomes[1] != Outcome::converged) break;
+                    const double apart = distance(states[0], states[1]).q;
+                    QVERIFY2(
+                        apart < 1e-3,
+                        qPrintable(
+                            QString("degree %1, h = %2, step %3: %4").arg(degree).arg(h).arg(i).arg(apart)));
+                    ++compared;
+                }
+            }
+        QVERIFY(compared > 2000);
     }
     /// Springs that are too stiff for sweeps are left to Newton's method.
     void stiffForcesAreLeftToNewton() {

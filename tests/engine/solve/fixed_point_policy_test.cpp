@@ -97,7 +97,7 @@ private slots:
     }
     void whatIsOneRootIsNearOrContracts() {
         QVERIFY(isOneRoot(0.2, 0.1, 0) && !isOneRoot(0.3, 0.1, 0));
-        QVERIFY(isOneRoot(2, 1e-4, 5) && !isOneRoot(2, 1e-4, 3));
+        QVERIFY(isOneRoot(2, 1e-4, 4) && !isOneRoot(2, 1e-4, 5));
         QVERIFY(!isOneRoot(2, 1e-3, 5, 0.1) && isOneRoot(2, 1e-3, 5, 0.25));
     }
     void pausesGrowWhereSweepsGoOnFailing() {
