@@ -71,6 +71,17 @@ inline Mechanical winch() {
     return startAt(typed({"x", "y"}, "(x_t^2+y_t^2)/2 - 9.81*y", {{"rope", "x^2+y^2-(1+0.2*sin(2*t))^2"}}),
                    {std::sin(0.8), -std::cos(0.8)}, {0.4 * std::sin(0.8), -0.4 * std::cos(0.8)});
 }
+/// Three rods and one freedom, with a motor and a damper; it passes the places where any of its coordinates
+/// is at rest.
+inline Mechanical fourBar() {
+    return startAt(typedWith({"x", "y", "u", "w"}, "(x_t^2+y_t^2)/2 + u_t^2+w_t^2 - 9.81*(y+2*w)",
+                             {{"constraints", Value::Object{{"crank", "x^2+y^2-1"},
+                                                            {"coupler", "(u-x)^2+(w-y)^2-4"},
+                                                            {"rocker", "(u-2.5)^2+w^2-3.24"}}},
+                              {"forces", Value::Object{{"x", "-12*y"}, {"y", "12*x"}}},
+                              {"dissipation", "0.75*(u_t^2+w_t^2)"}}),
+                   {-0.416146836547142, 0.909297426825682, 1.4963985963719, 1.49425038819995}, {0, 0, 0, 0});
+}
 /// A charge on a torus: a Lagrangian that is not separable.
 inline Mechanical chargeOnTorus() {
     return startAt(typed({"x", "y", "z"}, "(x_t^2+y_t^2+z_t^2)/2 + 0.75*x^2*y_t + 0.3*x*y*z_t - z",

@@ -12,23 +12,13 @@ namespace extremal::newton_start_test {
 namespace {
 
 using mechanism_test::distance;
+using mechanism_test::fourBar;
 using mechanism_test::Mechanical;
 using mechanism_test::startAt;
 using mechanism_test::typedWith;
 
-/// Three rods and one angle, with a motor and a damper.
-Mechanical fourBar() {
-    return startAt(typedWith({"x", "y", "u", "w"}, "(x_t^2+y_t^2)/2 + u_t^2+w_t^2 - 9.81*(y+2*w)",
-                             {{"constraints", Value::Object{{"crank", "x^2+y^2-1"},
-                                                            {"coupler", "(u-x)^2+(w-y)^2-4"},
-                                                            {"rocker", "(u-2.5)^2+w^2-3.24"}}},
-                              {"forces", Value::Object{{"x", "-12*y"}, {"y", "12*x"}}},
-                              {"dissipation", "0.75*(u_t^2+w_t^2)"}}),
-                   {-0.416146836547142, 0.909297426825682, 1.4963985963719, 1.49425038819995}, {0, 0, 0, 0});
-}
-
-/// The same motion in the angle of the crank: the loop is closed by two circles, and the rocker turns by w
-/// for each turn of the crank.
+/// The motion of a four-bar in the angle of the crank: the loop is closed by two circles, and the rocker
+/// turns by w for each turn of the crank.
 Mechanical fourBarInOneAngle() {
     const std::string x = "cos(a)", y = "sin(a)", square = "(2.5-cos(a))^2+sin(a)^2",
                       along = "((0.76+" + square + ")/(2*(" + square + ")))",

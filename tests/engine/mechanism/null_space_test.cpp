@@ -16,17 +16,6 @@
 namespace extremal::mechanism_test {
 namespace null_space_test {
 
-/// Three rods and one freedom, with a motor and a damper; it passes the places where any of its coordinates
-/// is at rest.
-Mechanical fourBar() {
-    return startAt(typedWith({"x", "y", "u", "w"}, "(x_t^2+y_t^2)/2 + u_t^2+w_t^2 - 9.81*(y+2*w)",
-                             {{"constraints", Value::Object{{"crank", "x^2+y^2-1"},
-                                                            {"coupler", "(u-x)^2+(w-y)^2-4"},
-                                                            {"rocker", "(u-2.5)^2+w^2-3.24"}}},
-                              {"forces", Value::Object{{"x", "-12*y"}, {"y", "12*x"}}},
-                              {"dissipation", "0.75*(u_t^2+w_t^2)"}}),
-                   {-0.416146836547142, 0.909297426825682, 1.4963985963719, 1.49425038819995}, {0, 0, 0, 0});
-}
 /// Masses that are no diagonal and depend on the place, with two freedoms.
 Mechanical beadOnSurface() {
     return startAt(typed({"x", "y", "z"}, "(1+x^2)*x_t^2/2 + y_t^2 + x_t*z_t/3 + (2+sin(y))*z_t^2/2 - 2*z",
