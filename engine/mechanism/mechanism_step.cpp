@@ -90,9 +90,7 @@ public:
             report_.outcome = Outcome::singular;
             return report_;
         }
-        if (!sweeps_.haveSolved()) {
-            last_.take(Y_, impulses_, equations_->masses());
-        }
+        if (!sweeps_.haveSolved()) last_.take(Y_, impulses_, equations_->masses());
         previousStep_ = h_;
         Eigen::Map<Vector>(state.x.data(), d) = q1_;
         Eigen::Map<Vector>(state.x.data() + d, d) = p1_;
@@ -205,9 +203,11 @@ public:
     /// besides (said_of_forces.hpp).
     std::span<const Quantity> quantities() const override { return said_.quantities(); }
     void measure(const State&, double* values) const override {
-        completeCurve();
         std::fill_n(values, said_.quantities().size(), 0.0);
-        if (mechanism_.force()) said_.addForces(forMeasures(), curve_, {start_, h_, z_}, values);
+        if (mechanism_.force()) {
+            completeCurve();
+            said_.addForces(forMeasures(), curve_, {start_, h_, z_}, values);
+        }
         if (mechanism_.rolling() || (mechanism_.constraint() && mechanism_.constraint()->isTimeDependent))
             values[SaidOfForces::work] += said_.workOfConstraints(
                 forMeasures(), curve_, {start_, h_, z_}, impulses_, isProjected() ? &kappa_ : nullptr);

@@ -52,8 +52,9 @@ struct StartMotion {
 struct LastCurve {
     Eigen::VectorXd Y, impulses, masses;
 
-    /// The curve goes on; what acts on it is taken to be what has acted. False where its increments would be
-    /// others than the last ones, as in front of a turning point: a root near such a curve may be any.
+    /// The curve goes on; what acts on it is taken to be what has acted. False where its increments would
+    /// differ from the last ones by a quarter, as in front of a turning point: a root near such a curve may
+    /// be any.
     bool goOn(const MechanismCurve& of, Eigen::VectorXd& toY, Eigen::VectorXd& toImpulses) const {
         const Eigen::Map<const Mechanism::Rows> previous(Y.data(), of.unknowns(), of.d);
         Eigen::Map<Mechanism::Rows>(toY.data(), of.unknowns(), of.d) =

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/outcome.hpp"
 #include "engine/core/text/archive.hpp"
 #include "engine/solve/correction_size.hpp"
 #include "engine/solve/newton_policy.hpp"
@@ -35,10 +36,12 @@ inline bool isOneRoot(double first, double last, int contractions, double linear
 class SweepPause {
 public:
     bool isOver() { return left_ == 0 || --left_ < 0; }
-    void end() { next_ = 0; }
-    void begin() {
-        left_ = next_;
-        next_ = std::clamp(2 * next_, 1, stepsWithNewton);
+    /// How the sweeps of a step have ended.
+    void after(Outcome outcome) {
+        if (outcome == Outcome::stopped) return;
+        const bool hasFailed = outcome != Outcome::converged;
+        left_ = hasFailed ? next_ : 0;
+        next_ = hasFailed ? std::clamp(2 * next_, 1, stepsWithNewton) : 0;
     }
     void checkpoint(Archive& archive) { archive(left_, next_); }
 
@@ -107,11 +110,12 @@ private:
         return size * ratio <= epsilon / 100;
     }
     /// Corrections that shrank fast, over two sweeps, and suddenly do not, near round-off; or have not shrunk
-    /// over three sweeps, within four digits of it, as sums of terms that cancel leave no more.
+    /// over three sweeps, within four digits of it, as sums of terms that cancel leave no more. Where the
+    /// noise is known, corrections below it that twice have not halved.
     bool isRoundOff(const T& size) const {
-        const bool isSudden = size >= earlier_[0] * T(stall) && earlier_[0] < earlier_[2] * T(stall * stall);
         if (noise_ > T(0))
             return size < noise_ && size >= T(0.5) * earlier_[0] && earlier_[0] >= T(0.5) * earlier_[1];
+        const bool isSudden = size >= earlier_[0] * T(stall) && earlier_[0] < earlier_[2] * T(stall * stall);
         return (size < 8 * epsilon && isSudden) ||
                (size < roundOffOfSums<T>() && size >= earlier_[2] * T(stall));
     }

@@ -67,12 +67,8 @@ Outcome ForcedIteration::solve(const From& from, StepReport& report) {
         sweeps_.forget();
         outcome = attempt(from, report);
     }
-    if (outcome == Outcome::converged) {
-        pause_.end();
-        return outcome;
-    }
-    sweeps_.forget();
-    if (outcome == Outcome::diverged) pause_.begin();
+    if (outcome != Outcome::converged) sweeps_.forget();
+    pause_.after(outcome);
     return outcome;
 }
 

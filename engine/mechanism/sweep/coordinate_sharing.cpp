@@ -88,16 +88,7 @@ bool CoordinateSharing::share(double t, const double* q, const double* end) {
     return true;
 }
 
-/// The dependence in the order at hand, one of those that were asked for before or a new one.
-void CoordinateSharing::takeOrder() {
-    for (const auto& [order, dependence] : known_)
-        if (order == order_) {
-            dependence_ = dependence;
-            return;
-        }
-    dependence_ = constraint_.dependence(constraint_.model.get(), order_);
-    known_.emplace_back(order_, dependence_);
-}
+void CoordinateSharing::takeOrder() { dependence_ = constraint_.dependence(constraint_.model.get(), order_); }
 
 double CoordinateSharing::largest() const {
     const SharedCoordinates by = shared();

@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <utility>
 #include <vector>
 
 #include "engine/core/text/archive.hpp"
@@ -63,7 +62,6 @@ private:
     int d_, n_;
     std::vector<int> order_;  ///< constraints, the coordinates that depend on these, and the others
     Constraint::AtNodes dependence_;
-    std::vector<std::pair<std::vector<int>, Constraint::AtNodes>> known_;  ///< by order
     std::vector<double> N_, factor_, masses_;
     Rows G_[2];  ///< at the start and at the end of a curve, eliminated
     Vector g_, byTime_;

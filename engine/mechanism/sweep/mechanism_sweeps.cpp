@@ -18,14 +18,12 @@ MechanismSweeps::MechanismSweeps(const Mechanism& mechanism, const MechanismCurv
 Outcome MechanismSweeps::solve(const From& from, Mechanism& mechanism, StartMotion& start,
                                StepReport& report) {
     const bool isNext = std::exchange(haveSolved_, false) && from.isNext;
+    const From own{from.t, from.h, from.q, from.p, from.carryQ, from.carryP, isNext, from.stop};
     Outcome outcome = Outcome::diverged;
     if (forced_)
-        outcome = forced_->solve(
-            {from.t, from.h, from.q, from.p, from.carryQ, from.carryP, isNext, from.stop}, report);
+        outcome = forced_->solve(own, report);
     else if (onNullSpace_ && pause_.isOver())
-        outcome =
-            alongNullSpace({from.t, from.h, from.q, from.p, from.carryQ, from.carryP, isNext, from.stop},
-                           mechanism, start, report);
+        outcome = alongNullSpace(own, mechanism, start, report);
     haveSolved_ = outcome == Outcome::converged;
     return outcome;
 }
@@ -41,10 +39,7 @@ Outcome MechanismSweeps::alongNullSpace(const From& from, Mechanism& mechanism, 
     if (!isOver())
         outcome = start.take(mechanism, from.t, from.q, from.p, report) ? fromStart(from, start, report)
                                                                         : Outcome::diverged;
-    if (outcome == Outcome::converged)
-        pause_.end();
-    else
-        pause_.begin();
+    pause_.after(outcome);
     return outcome;
 }
 

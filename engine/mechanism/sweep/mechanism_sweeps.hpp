@@ -29,14 +29,7 @@ public:
     /// Whether there are any for this step.
     bool exist() const { return forced_ || onNullSpace_; }
 
-    /// A step of length h that starts at t from (q, p), which have lost (carryQ, carryP) to rounding.
-    /// `isNext`: it goes on from the last one.
-    struct From {
-        double t, h;
-        const double *q, *p, *carryQ, *carryP;
-        bool isNext;
-        const std::stop_token& stop;
-    };
+    using From = ForcedIteration::From;
     /// `start` is room for what is known there, and is taken where that is needed.
     Outcome solve(const From& from, Mechanism& mechanism, StartMotion& start, StepReport& report);
     /// Whether the last step was solved here; what follows is about this step.

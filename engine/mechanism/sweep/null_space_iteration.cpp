@@ -186,10 +186,10 @@ bool NullSpaceIteration::start(const From& from, const Vector& v) {
     prepare(from);
     for (int k = 0; k < d_; ++k)
         for (int j = 0; j < places_; ++j) {
-            const int at = k * places_ + j;
-            double& U = numbers(U_)[at];
+            const int entry = k * places_ + j;
+            double& U = numbers(U_)[entry];
             if (j >= m_) U = 0;
-            numbers(P_)[at] = from.q[k] + U;
+            numbers(P_)[entry] = from.q[k] + U;
         }
     sharing_.takeMasses(from.t, from.q, v.data());
     return share(from);
@@ -266,8 +266,6 @@ void NullSpaceIteration::prepare(const From& from) {
     s.startFactor = sharing_.factor().data();
     s.R = numbers(R_);
     s.E = numbers(E_);
-    s.S = numbers(S_);
-    s.change = numbers(change_);
     s.perSize = perSize_.data();
     s.least = least_.data();
 }
@@ -320,7 +318,7 @@ Outcome NullSpaceIteration::solve(StepReport& report) {
     constexpr int worth = 21;
     constexpr double noise = 1e3 * roundOff;  // of sums with slopes of tests that cancel
     FixedPointPolicy<double> policy(tolerance_ / 10, worth, noise);
-    constexpr double slow = 0.03;
+    constexpr double slow = 0.03, linear = 0.25;
     double before = 1;
     contraction_ = 0;
     for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
@@ -357,7 +355,7 @@ Outcome NullSpaceIteration::solve(StepReport& report) {
             kernel_.apply(s);
             continue;
         }
-        if (!isOneRoot(nearness_, size, iteration, 0.25)) return Outcome::diverged;
+        if (!isOneRoot(nearness_, size, iteration, linear)) return Outcome::diverged;
         if (isExact_) {
             kernel_.apply(s);
             evaluate();

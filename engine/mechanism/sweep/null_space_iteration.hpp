@@ -54,8 +54,8 @@ public:
         const std::stop_token& stop;
     };
     /// Starts from the last curve that was solved here, where this step begins at its end with the same
-    /// length. False where its increments would be others than the last ones, as in front of a turning point:
-    /// a root near such a curve may be any.
+    /// length. False where its increments would differ from the last ones by more than these, as at a turning
+    /// point: a root near such a curve may be any.
     bool goOn(const From& from);
     /// Starts from what goOn() would, but from velocity and acceleration there alone.
     bool startFromEnd(const From& from);

@@ -40,8 +40,8 @@ struct NullSpace {
     static constexpr int width = lanesOf<Pack>;
 
     /// A kernel on a copy of what it is handed, of which the compiler keeps in registers what it needs: a
-    /// store could be one to the original. In the usual sizes loops over blocks of nodes, and over the one
-    /// freedom, are none.
+    /// store could be one to the original. In the usual sizes there is one block of nodes and one
+    /// freedom, and the loops over these are left out.
     template <auto kernel, class... A>
     static void of(const Sweep& given, A... a) {
         Sweep s = given;

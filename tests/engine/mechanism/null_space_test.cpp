@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/algebra/dense.hpp"
+#include "engine/integrator/variation/transposed_step.hpp"
 #include "tests/engine/mechanism/mechanisms.hpp"
 #include "tests/tools/test.hpp"
 
@@ -114,7 +115,7 @@ private slots:
     /// What a step is varied by has its multipliers, which sweeps do without.
     void tangentMapsAreThoseOfNewton() {
         for (const Mechanical& of : {fourBar(), doublePendulum(), chargeOnTorus(), beadOnSurface()}) {
-            std::vector<std::vector<double>> maps, transposed;
+            std::vector<std::vector<double>> maps;
             for (const char* method : {"auto", "newton"}) {
                 Discretization d = *namedScheme("galerkin-gauss-3");
                 d.solver = {method, {}, {}};
@@ -125,7 +126,10 @@ private slots:
                 const std::size_t size = integrator->tangentSize();
                 std::vector<double> W(size * size, 0.0);
                 for (std::size_t i = 0; i < size; ++i) W[i * size + i] = 1;
+                std::vector<double> back = W;
                 QVERIFY(integrator->applyTangent(W));
+                QVERIFY(dynamic_cast<TransposedStep&>(*integrator).applyTransposed(back));
+                W.insert(W.end(), back.begin(), back.end());
                 maps.push_back(W);
             }
             double largest = 0;

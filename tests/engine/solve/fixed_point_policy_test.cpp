@@ -103,13 +103,15 @@ private slots:
     void pausesGrowWhereSweepsGoOnFailing() {
         SweepPause pause;
         const auto leftOut = [&] {
-            pause.begin();
+            pause.after(Outcome::diverged);
             int steps = 0;
             while (!pause.isOver()) ++steps;
             return steps;
         };
         for (const int expected : {0, 1, 2, 4, 8, 16, 32, 32}) QCOMPARE(leftOut(), expected);
-        pause.end();
+        pause.after(Outcome::stopped);  // says nothing of the steps
+        QCOMPARE(leftOut(), 32);
+        pause.after(Outcome::converged);
         QCOMPARE(leftOut(), 0);
     }
     void aCorrectionBeyondTheIncrementsPromisesNothing() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/typed/parts/dependence.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/core/algebra/instruction_set.hpp"
@@ -31,9 +32,12 @@ void Dependence::atNodes(const void* p, const double* t, int nodes, const double
 
 Constraint::AtNodes Dependence::inOrder(std::span<const int> order) const {
     const std::lock_guard lock(making_);
-    std::shared_ptr<const Eliminated>& known = known_[{order.begin(), order.end()}];
-    if (!known) known = eliminated(order);
-    return {known, ForThisMachine<&atNodes>::call()};
+    auto known = std::find_if(known_.begin(), known_.end(), [&](const auto& each) {
+        return std::equal(order.begin(), order.end(), each.first.begin(), each.first.end());
+    });
+    if (known == known_.end())
+        known = known_.insert(known, {{order.begin(), order.end()}, eliminated(order)});
+    return {known->second, ForThisMachine<&atNodes>::call()};
 }
 
 std::shared_ptr<const Dependence::Eliminated> Dependence::eliminated(std::span<const int> order) const {

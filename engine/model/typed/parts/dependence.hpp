@@ -7,10 +7,10 @@
 /// zeros. A tape is made once for each order that is asked for.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/model/parts/constraint.hpp"
@@ -43,7 +43,8 @@ private:
     std::vector<int> values_, byPlace_;
     mutable std::mutex making_;
     mutable Graph graph_;
-    mutable std::map<std::vector<int>, std::shared_ptr<const Eliminated>> known_;
+    /// By order; a few, which are looked for without a key that would have to be made.
+    mutable std::vector<std::pair<std::vector<int>, std::shared_ptr<const Eliminated>>> known_;
 };
 
 }  // namespace extremal::typed
